@@ -71,7 +71,7 @@ struct Mesh {
     }
 };
 
-/// Fills `triangles` from the polygons. Convex polygons become fans; a quad is split so that the two
+/// Fills `triangles` from the polygons. Strictly convex polygons become fans; a quad is split so that the two
 /// triangles fold least (the shorter diagonal on ties); other polygons are ear-clipped in their mean plane.
 void triangulate(Mesh& mesh);
 
