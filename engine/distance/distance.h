@@ -1,0 +1,59 @@
+// Distances on and through the surface: one number per vertex that is reached.
+#pragma once
+
+#include "engine/core/types.h"
+#include "engine/mesh/mesh.h"
+#include "engine/mesh/surface_point.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace anvil {
+
+/// How geodesic distances are found. `automatic` leaves the choice to the solver.
+enum class DistanceMethod { automatic, approximate, exact };
+
+/// Distances (world units, >= 0) of the vertices that were reached, in order of arrival, each vertex once;
+/// every other vertex is infinitely far.
+struct DistanceField {
+    std::vector<uint32_t> vertices;
+    std::vector<double> distances;                       ///< as long as `vertices`
+    DistanceMethod method = DistanceMethod::approximate; ///< the one that was used, never `automatic`
+
+    /// One number per vertex, +inf where not reached.
+    std::vector<double> dense(size_t vertex_count) const;
+};
+
+/// Geodesic distances over a triangulated surface of any kind: edges with any number of faces, boundaries,
+/// several components, faces without area, isolated vertices. Prepared once per mesh and positions, O(mesh);
+/// a call costs what its region costs. Edge lengths alone matter, so place and scale of the mesh do not:
+/// scaled by a power of two the distances are scaled bit for bit.
+class GeodesicSolver {
+  public:
+    /// `positions` stand in for mesh.positions (same count, finite); neither is kept.
+    /// @throws InputError if the counts differ or a position is not finite.
+    GeodesicSolver(const Mesh& mesh, std::span<const Vec3> positions);
+    ~GeodesicSolver();
+    GeodesicSolver(GeodesicSolver&&) noexcept;
+    GeodesicSolver& operator=(GeodesicSolver&&) noexcept;
+
+    /// Distance to the nearest source, eq. 10 of Bendels & Klein 2003, for all vertices not farther than
+    /// `radius`; their values are bit for bit those of radius = infinity. Sources at vertices, on edges and
+    /// inside faces; none gives an empty field. Safe to call from several threads at once.
+    /// @throws InputError if the radius is NaN or negative, a source names no triangle or vertex of the mesh,
+    ///         or its weights are negative or do not sum to 1.
+    DistanceField solve(std::span<const SurfacePoint> sources, double radius = infinity,
+                        DistanceMethod method = DistanceMethod::automatic) const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// Straight distance through space from each position to the nearest of `sources`, for positions not farther
+/// than `radius`, in vertex order. @throws InputError if the radius is NaN or negative.
+DistanceField euclidean_distances(std::span<const Vec3> positions, std::span<const Vec3> sources,
+                                  double radius = infinity);
+
+} // namespace anvil
