@@ -1,0 +1,65 @@
+#include "engine/distance/triangle_graph.h"
+
+#include "engine/core/parallel_for.h"
+
+namespace anvil {
+namespace {
+
+double power_of_two_near(double extent) {
+    if (!(extent > 0)) {
+        return 1;
+    }
+    // Beyond these exponents the inverse would not be a normal number.
+    return std::ldexp(1.0, std::clamp(std::ilogb(extent), -1000, 1000));
+}
+
+void measure_sides(TriangleGraph& graph, std::span<const Vec3> positions) {
+    graph.side_length.resize(graph.corner_vertex.size());
+    const double inverse = 1 / graph.unit;
+    parallel_for(graph.triangle_count(), 1 << 14, [&](size_t begin, size_t end) {
+        for (size_t side = 3 * begin; side < 3 * end; ++side) {
+            const Vec3& from = positions[graph.corner_vertex[side]];
+            const Vec3& to = positions[graph.corner_vertex[TriangleGraph::next(static_cast<uint32_t>(side))]];
+            graph.side_length[side] = glm::length((to - from) * inverse);
+        }
+    });
+    for (const double length : graph.side_length) {
+        graph.longest_side = std::max(graph.longest_side, length);
+    }
+}
+
+void link_vertices(TriangleGraph& graph, size_t vertex_count) {
+    std::vector<uint32_t>& begin = graph.leaving_begin;
+    begin.assign(vertex_count + 1, 0);
+    for (const uint32_t v : graph.corner_vertex) {
+        ++begin[v + 1];
+    }
+    for (size_t v = 0; v < vertex_count; ++v) {
+        begin[v + 1] += begin[v];
+    }
+    graph.leaving.resize(graph.corner_vertex.size());
+    std::vector<uint32_t> place(begin.begin(), begin.end() - 1);
+    for (uint32_t side = 0; side < graph.corner_vertex.size(); ++side) {
+        graph.leaving[place[graph.corner_vertex[side]]++] = side;
+    }
+}
+
+} // namespace
+
+TriangleGraph make_triangle_graph(std::span<const Triangle> triangles, std::span<const Vec3> positions) {
+    TriangleGraph graph;
+    Box box;
+    for (const Vec3& p : positions) {
+        box.include(p);
+    }
+    graph.unit = power_of_two_near(box.diagonal());
+    graph.corner_vertex.reserve(3 * triangles.size());
+    for (const Triangle& t : triangles) {
+        graph.corner_vertex.insert(graph.corner_vertex.end(), t.begin(), t.end());
+    }
+    measure_sides(graph, positions);
+    link_vertices(graph, positions.size());
+    return graph;
+}
+
+} // namespace anvil

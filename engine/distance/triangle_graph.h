@@ -1,0 +1,35 @@
+// What every marching method needs to know of a surface: side lengths and the triangles around each vertex.
+#pragma once
+
+#include "engine/core/types.h"
+
+#include <span>
+#include <vector>
+
+namespace anvil {
+
+/// Side s = 3 t + k of triangle t runs from its corner k to corner k + 1. A side also stands for the corner
+/// that it leaves. Any number of triangles may share an edge or a vertex. Lengths are in units of a power of
+/// two near the extent of the mesh, so that squares neither overflow nor vanish at any scale and scaling by
+/// powers of two changes no digit.
+struct TriangleGraph {
+    double unit = 1;                     ///< world length of 1
+    std::vector<uint32_t> corner_vertex; ///< 3 per triangle
+    std::vector<double> side_length;     ///< 3 per triangle
+    std::vector<uint32_t> leaving_begin; ///< vertex_count() + 1
+    std::vector<uint32_t> leaving;       ///< the sides that leave each vertex
+    double longest_side = 0;
+
+    size_t vertex_count() const { return leaving_begin.size() - 1; }
+    size_t triangle_count() const { return corner_vertex.size() / 3; }
+    static uint32_t next(uint32_t side) { return side % 3 == 2 ? side - 2 : side + 1; }
+    static uint32_t previous(uint32_t side) { return side % 3 == 0 ? side + 2 : side - 1; }
+    std::span<const uint32_t> sides_leaving(uint32_t vertex) const {
+        return {leaving.data() + leaving_begin[vertex], leaving.data() + leaving_begin[vertex + 1]};
+    }
+};
+
+/// Every index of `triangles` is below positions.size(); positions are finite.
+TriangleGraph make_triangle_graph(std::span<const Triangle> triangles, std::span<const Vec3> positions);
+
+} // namespace anvil

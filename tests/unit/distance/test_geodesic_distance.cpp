@@ -1,0 +1,283 @@
+#include "engine/core/error.h"
+#include "tests/unit/distance/surfaces.h"
+
+#include <catch2/catch.hpp>
+#include <thread>
+
+using namespace anvil;
+using namespace anvil::surfaces;
+
+namespace {
+
+std::vector<double> straight(const Mesh& mesh, const std::vector<SurfacePoint>& sources) {
+    std::vector<double> distances;
+    for (const Vec3& p : mesh.positions) {
+        double nearest = infinity;
+        for (const SurfacePoint& source : sources) {
+            nearest = std::min(nearest, glm::length(p - place(mesh, source)));
+        }
+        distances.push_back(nearest);
+    }
+    return distances;
+}
+
+// Every update passes on the roundings of its edge, a few eps each, over some 100 updates.
+constexpr double roundings = 1e-12;
+
+Mesh with_positions(Mesh mesh, double scale, const Vec3& offset) {
+    for (Vec3& p : mesh.positions) {
+        p = p * scale + offset;
+    }
+    return mesh;
+}
+
+} // namespace
+
+TEST_CASE("geodesic distances in a plane are the straight ones, from vertices, edges and faces") {
+    const Mesh mesh = plane(24, 17, 1.3, 1.0, 0.25);
+    const uint32_t centre = 8 * 25 + 12;
+    const std::vector<SurfacePoint> sources = {vertex_source(centre),
+                                               vertex_source(0),
+                                               {200, {0.2, 0.3, 0.5}, no_index},
+                                               {333, {0.4, 0, 0.6}, no_index},
+                                               {150, {0, 0.1, 0.9}, no_index},
+                                               {150, {0, 1, 0}, no_index}};
+    for (const SurfacePoint& source : sources) {
+        // A gain of less than 1e-6 is not passed on by vertices that have already marched.
+        CHECK(worst_relative(solve(mesh, {source}), straight(mesh, {source}), 0.01) < 1e-6);
+    }
+}
+
+TEST_CASE("several sources give the minimum of the single ones in a plane") {
+    const Mesh mesh = plane(30, 30, 1, 1, 0.25, 3);
+    const std::vector<SurfacePoint> sources = {
+        vertex_source(100), {900, {0.1, 0.6, 0.3}, no_index}, vertex_source(700)};
+    const std::vector<double> expected = straight(mesh, sources);
+    const std::vector<double> found = solve(mesh, sources);
+    // Fronts of different sources are never mixed, so no value is too small; a vertex at the border of two
+    // regions may lose the edge that its front came through and then takes the way along a side.
+    for (size_t v = 0; v < found.size(); ++v) {
+        CHECK(found[v] >= expected[v] * (1 - roundings));
+        CHECK(found[v] <= expected[v] + 1.0 / 30);
+    }
+}
+
+TEST_CASE("a folded strip has the distances of the flat one") {
+    const int columns = 40, rows = 8;
+    const Mesh flat = plane(columns, rows, 40, 8, 0);
+    const Mesh folded = bent(flat, columns, [](int i) {
+        // Every column turns by a right angle, up and down in turn.
+        const std::array<std::pair<int, int>, 4> turn = {{{0, 0}, {1, 0}, {1, 1}, {2, 1}}};
+        return std::pair<double, double>(2 * (i / 4) + turn[i % 4].first, turn[i % 4].second - (i / 4) * 0.0);
+    });
+    // Columns 3 -> 4 step from (2,1) to (2,0): all steps have length 1.
+    const std::vector<SurfacePoint> source = {{37, {0.3, 0.3, 0.4}, no_index}};
+    CHECK(worst_relative(solve(folded, source), solve(flat, source), 1) < roundings);
+    // Straight lines along the grid graze its edges: the virtual source is then off the edge by sqrt(eps).
+    CHECK(worst_relative(solve(flat, source), straight(flat, source), 1) < 4 * std::sqrt(2.2e-16));
+}
+
+TEST_CASE("distances on a prism are those of its unrolled sides") {
+    const int columns = 32, rows = 12;
+    const double side = 2 * std::sin(M_PI / columns);
+    Mesh mesh = bent(plane(columns, rows, columns * side, 2, 0), columns, [&](int i) {
+        const double angle = 2 * M_PI * (i % columns) / columns;
+        return std::pair<double, double>(std::cos(angle), std::sin(angle));
+    });
+    // Close it: the last column is the first.
+    for (Triangle& t : mesh.triangles) {
+        for (uint32_t& v : t) {
+            v = v % (columns + 1) == static_cast<uint32_t>(columns) ? v - columns : v;
+        }
+    }
+    const uint32_t source = 5 * (columns + 1) + 3;
+    const std::vector<double> found = solve(mesh, {vertex_source(source)});
+    double worst = 0;
+    for (int j = 0; j <= rows; ++j) {
+        for (int i = 0; i < columns; ++i) {
+            const int across = std::abs(i - 3);
+            const double expected =
+                std::hypot(std::min(across, columns - across) * side, 2.0 * (j - 5) / rows);
+            const double error = std::abs(found[j * (columns + 1) + i] - expected) / std::max(expected, side);
+            // At the far side two fronts of one source meet, where an approximate method may err.
+            worst = std::max(worst, across == columns / 2 ? error / 1e8 : error);
+        }
+    }
+    CHECK(worst < roundings);
+}
+
+TEST_CASE("distances on finer and finer spheres converge to the angle") {
+    double last = infinity;
+    for (int times = 2; times <= 5; ++times) {
+        const Mesh mesh = sphere(times);
+        const std::vector<double> found = solve(mesh, {vertex_source(0)});
+        double sum = 0;
+        for (size_t v = 0; v < found.size(); ++v) {
+            const double angle =
+                std::acos(std::clamp(glm::dot(mesh.positions[v], mesh.positions[0]), -1.0, 1.0));
+            REQUIRE(std::isfinite(found[v]));
+            sum += std::abs(found[v] - angle);
+        }
+        const double mean = sum / static_cast<double>(found.size());
+        CHECK(mean < 0.7 * last);
+        last = mean;
+    }
+    CHECK(last < 5e-3);
+}
+
+TEST_CASE("within the radius a bounded run gives the numbers of the unbounded one, and nothing beyond") {
+    const Mesh mesh = sphere(4);
+    const std::vector<SurfacePoint> sources = {vertex_source(17), {77, {0.2, 0.2, 0.6}, no_index}};
+    const std::vector<double> all = solve(mesh, sources);
+    for (const double radius : {0.0, 0.03, 0.3, 1.0, 2.5, 10.0}) {
+        const std::vector<double> some = solve(mesh, sources, radius);
+        size_t different = 0;
+        for (size_t v = 0; v < all.size(); ++v) {
+            different += some[v] != (all[v] <= radius ? all[v] : infinity) ? 1 : 0;
+        }
+        CHECK(different == 0);
+    }
+}
+
+TEST_CASE("a second run on the same solver repeats the first, also from many threads") {
+    const Mesh mesh = sphere(3);
+    const GeodesicSolver solver(mesh, mesh.positions);
+    const std::vector<SurfacePoint> one = {vertex_source(5)}, other = {vertex_source(300)};
+    const std::vector<double> first = solver.solve(one).dense(mesh.vertex_count());
+    solver.solve(other, 0.4);
+    std::array<std::vector<double>, 4> again;
+    std::vector<std::thread> threads;
+    for (std::vector<double>& result : again) {
+        threads.emplace_back([&] { result = solver.solve(one).dense(mesh.vertex_count()); });
+    }
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
+    for (const std::vector<double>& result : again) {
+        CHECK(result == first);
+    }
+}
+
+TEST_CASE("what no path reaches stays infinite, isolated vertices included") {
+    Mesh mesh = plane(3, 3, 1, 1, 0);
+    const auto first = static_cast<uint32_t>(mesh.vertex_count());
+    mesh.positions.insert(mesh.positions.end(), {{5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {0.5, 0.5, 0}});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.add_polygon(mesh.triangles.back());
+    const std::vector<double> found = solve(mesh, {vertex_source(0)});
+    for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        CHECK(std::isinf(found[v]) == (v >= first));
+    }
+    const std::vector<double> alone = solve(mesh, {vertex_source(first + 3)});
+    for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        CHECK(alone[v] == (v == first + 3 ? 0.0 : infinity));
+    }
+    CHECK(solve(mesh, {})[0] == infinity);
+}
+
+TEST_CASE("three sheets on one edge are each reached as the flat pair that they form") {
+    // Sheet 0 and each of the others make a flat plane when unfolded around the shared edge x = 0.
+    const int n = 8;
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+    const auto index = [&](int sheet, int i, int j) {
+        return static_cast<uint32_t>(i == 0 ? j : (n + 1) + (sheet * n + i - 1) * (n + 1) + j);
+    };
+    for (int j = 0; j <= n; ++j) {
+        positions.emplace_back(0, j, 0);
+    }
+    for (int sheet = 0; sheet < 3; ++sheet) {
+        const double angle = 2.1 * sheet;
+        for (int i = 1; i <= n; ++i) {
+            for (int j = 0; j <= n; ++j) {
+                positions.emplace_back(i * std::cos(angle), j, i * std::sin(angle));
+            }
+        }
+        for (int i = 0; i < n; ++i) {
+            for (int j = 0; j < n; ++j) {
+                triangles.push_back({index(sheet, i, j), index(sheet, i + 1, j), index(sheet, i + 1, j + 1)});
+                triangles.push_back({index(sheet, i, j), index(sheet, i + 1, j + 1), index(sheet, i, j + 1)});
+            }
+        }
+    }
+    const Mesh mesh = from_triangles(positions, triangles);
+    const std::vector<double> found = solve(mesh, {vertex_source(index(0, 3, 4))});
+    double worst = 0;
+    for (int sheet = 0; sheet < 3; ++sheet) {
+        for (int i = 0; i <= n; ++i) {
+            for (int j = 0; j <= n; ++j) {
+                const double expected = std::hypot(sheet == 0 ? i - 3 : i + 3, j - 4);
+                worst = std::max(worst, std::abs(found[index(sheet, i, j)] - expected));
+            }
+        }
+    }
+    CHECK(worst < 10 * roundings);
+}
+
+TEST_CASE("faces without area are crossed, and do not disturb the others") {
+    Mesh mesh = plane(6, 6, 6, 6, 0);
+    const auto middle = static_cast<uint32_t>(mesh.vertex_count());
+    mesh.positions.push_back(mesh.positions[24]); // a second vertex in the same place
+    mesh.positions.emplace_back(9, 0, 0);         // reached through a flattened triangle only
+    mesh.triangles.push_back({24, middle, 25});   // needle without area
+    mesh.triangles.push_back({6, middle + 1, 5}); // three points on a line
+    mesh.triangles.push_back({10, 10, 11});       // a corner twice
+    const std::vector<double> found = solve(mesh, {vertex_source(24)});
+    CHECK(found[middle] == 0);
+    CHECK(found[6] == Approx(std::sqrt(18.0)).epsilon(roundings));
+    CHECK(found[middle + 1] == Approx(std::sqrt(18.0) + 3).epsilon(roundings));
+    for (uint32_t v = 0; v < 49; ++v) {
+        const double expected = glm::length(mesh.positions[v] - mesh.positions[24]);
+        CHECK(found[v] == Approx(expected).epsilon(roundings));
+    }
+}
+
+TEST_CASE("scaling by a power of two scales the distances bit for bit, at any size") {
+    const Mesh mesh = sphere(3);
+    const std::vector<SurfacePoint> sources = {{77, {0.2, 0.2, 0.6}, no_index}};
+    const std::vector<double> expected = solve(mesh, sources, 1.5);
+    for (const int exponent : {-340, -100, -1, 7, 100, 500}) {
+        const double scale = std::ldexp(1.0, exponent);
+        const std::vector<double> found = solve(with_positions(mesh, scale, Vec3(0)), sources, 1.5 * scale);
+        size_t different = 0;
+        for (size_t v = 0; v < found.size(); ++v) {
+            different += found[v] != expected[v] * scale ? 1 : 0;
+        }
+        CHECK(different == 0);
+    }
+}
+
+TEST_CASE("a surface far from the origin keeps its distances to the rounding of its positions") {
+    const Mesh mesh = sphere(3);
+    const std::vector<SurfacePoint> sources = {vertex_source(3)};
+    const std::vector<double> found = solve(with_positions(mesh, 1, {1e6, -3e5, 2e6}), sources);
+    // Positions are rounded by 1e6 eps; some 20 edges of that length error add up.
+    CHECK(worst_relative(found, solve(mesh, sources), 0.1) < 1e-7);
+}
+
+TEST_CASE("euclidean distances are the straight ones, bounded by the radius") {
+    const std::vector<Vec3> positions = {{0, 0, 0}, {3, 4, 0}, {1, 0, 0}, {1e200, 0, 0}};
+    const std::vector<Vec3> sources = {{0, 0, 0}, {3, 0, 0}};
+    const std::vector<double> found = euclidean_distances(positions, sources).dense(4);
+    CHECK(found == std::vector<double>{0, 4, 1, 1e200});
+    const DistanceField bounded = euclidean_distances(positions, sources, 1);
+    CHECK(bounded.vertices == std::vector<uint32_t>{0, 2});
+    CHECK(euclidean_distances(positions, {}).vertices.empty());
+}
+
+TEST_CASE("sources and radii that cannot be meant are named") {
+    const Mesh mesh = plane(2, 2, 1, 1, 0);
+    const GeodesicSolver solver(mesh, mesh.positions);
+    const auto from = [&](SurfacePoint point, double radius = 1.0) {
+        const std::vector<SurfacePoint> sources = {point};
+        return solver.solve(sources, radius);
+    };
+    CHECK_THROWS_AS(from(vertex_source(9)), InputError);
+    CHECK_THROWS_AS(from({8, {1, 0, 0}, no_index}), InputError);
+    CHECK_THROWS_AS(from({0, {0.5, 0.6, 0}, no_index}), InputError);
+    CHECK_THROWS_AS(from({0, {-0.5, 0.5, 1}, no_index}), InputError);
+    CHECK_THROWS_AS(from({0, {NAN, 0.5, 0.5}, no_index}), InputError);
+    CHECK_THROWS_AS(from(vertex_source(0), NAN), InputError);
+    CHECK_THROWS_AS(from(vertex_source(0), -1), InputError);
+    CHECK_THROWS_AS(GeodesicSolver(mesh, std::span(mesh.positions).first(3)), InputError);
+}
