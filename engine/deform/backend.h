@@ -1,0 +1,38 @@
+// A back end is an object that opens sessions; a session keeps an edit's data where it is computed.
+#pragma once
+
+#include "engine/deform/deform_input.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace anvil {
+
+/// One edit, prepared. Calls from one thread at a time.
+class DeformSession {
+  public:
+    virtual ~DeformSession() = default;
+
+    /// Moves the points; returns when the work is submitted, the result stays where it was computed.
+    /// @throws InternalError on sizes that do not fit the input, DeviceError.
+    virtual void update(const DeformMotion& motion) = 0;
+
+    /// The last update's result, one entry per point. @throws DeviceError, InternalError before an update.
+    virtual std::vector<PointResult> download() = 0;
+};
+
+class Backend {
+  public:
+    virtual ~Backend() = default;
+
+    /// @throws DeviceError if the device cannot hold the input.
+    virtual std::unique_ptr<DeformSession> prepare(const DeformInput& input) = 0;
+    virtual std::string device_name() const = 0;
+    virtual std::string driver_name() const = 0;
+};
+
+/// The reference: double precision, the shared formulas, all cores.
+std::unique_ptr<Backend> make_cpu_backend();
+
+} // namespace anvil

@@ -1,0 +1,28 @@
+// The shared kernel in double: the reference that the GPU is held against.
+#pragma once
+
+#include "engine/occluder/occluder_kernel.h"
+
+#define INOUT(type) type&
+#define PRECISE
+
+namespace anvil::kernel::f64 {
+
+/// The functions of shaders/shared/contact.h over arrays that outlive it.
+struct DeformKernel : OccluderKernel {
+    KernelParams params{};
+    const real3* points = nullptr;
+    const real* fields = nullptr;
+    const CurveRange* shapes = nullptr;
+    const real3* targets = nullptr;
+    const real* start_distances = nullptr;
+
+// NOLINTBEGIN: compiled as GLSL too
+#include "shaders/shared/contact.h"
+    // NOLINTEND
+};
+
+} // namespace anvil::kernel::f64
+
+#undef INOUT
+#undef PRECISE

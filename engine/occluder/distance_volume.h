@@ -1,0 +1,34 @@
+// The content of a baked 3D texture: outward normal and signed distance at voxel centres.
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/core/types.h"
+#include "engine/occluder/exact_distance.h"
+
+#include <array>
+#include <vector>
+
+namespace anvil {
+
+/// Dense signed distance field of a bounded solid, in the occluder's own space.
+/// Voxel (x, y, z) has its centre at centre - half_size + voxel * (x, y, z); size[i] = 1 + 2 half_size[i] /
+/// voxel.
+struct DistanceVolume {
+    std::array<uint32_t, 3> size{};
+    Vec3 centre{0};
+    Vec3 half_size{0}; ///< of the box of the outermost voxel centres
+    double voxel = 0;  ///< width, the same along all axes
+    double error =
+        0; ///< largest |trilinear - exact| seen at cell centres near the surface, at most voxel / 4
+    std::vector<float> texels; ///< 4 per voxel: normal x, y, z, distance; x fastest
+
+    /// Trilinear (normal, distance) at uvw in [0, 1] between the outermost voxel centres, as the GPU filters
+    /// it.
+    glm::dvec4 texel(const Vec3& uvw) const;
+};
+
+/// Samples `solid` on a grid with `resolution` voxels along the longest side of its bounds plus padding.
+/// @throws InputError if the solid is unbounded or has no extent; Cancelled.
+DistanceVolume bake(const ExactDistance& solid, uint32_t resolution, Progress& progress);
+
+} // namespace anvil

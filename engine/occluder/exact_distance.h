@@ -1,0 +1,36 @@
+// The true signed distance of an occluder in its own space: what fields are baked from, and what decides at
+// the end whether a vertex is inside.
+#pragma once
+
+#include "engine/core/types.h"
+#include "engine/occluder/kernel_types.h"
+
+#include <memory>
+#include <vector>
+
+namespace anvil {
+
+struct SignedDistance {
+    double distance; ///< < 0 inside
+    Vec3 normal;     ///< outward unit normal: from the closest surface point, or towards it when inside
+};
+
+/// Thread-safe; built once.
+class ExactDistance {
+  public:
+    virtual ~ExactDistance() = default;
+    virtual SignedDistance at(const Vec3& p) const = 0;
+    /// Box of the solid; infinite for unbounded shapes.
+    virtual Box bounds() const = 0;
+};
+
+/// Distance by the nodes' formulas: exact for one analytic leaf, for several a bound with exact sign and zero
+/// set (no volume leaves).
+std::shared_ptr<const ExactDistance> formula_distance(std::vector<kernel::f64::ShapeNode> nodes);
+
+/// True distance of a bounded Boolean combination: closest point of a fine polygonization of the zero set,
+/// put on the zero set of the formula (`cells` polygonization cells along the longest side).
+/// @throws InputError if the solid is unbounded or empty.
+std::shared_ptr<const ExactDistance> redistanced(std::shared_ptr<const ExactDistance> solid, int cells);
+
+} // namespace anvil

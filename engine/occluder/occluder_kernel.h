@@ -1,0 +1,31 @@
+// The shared occluder formulas in double.
+#pragma once
+
+#include "engine/occluder/distance_volume.h"
+#include "engine/occluder/kernel_types.h"
+
+#include <cmath>
+#include <memory>
+
+namespace anvil::kernel::f64 {
+
+using namespace glm;
+using real4 = dvec4;
+
+/// The functions of shaders/shared/{shape_function,occluder}.h over arrays that outlive it.
+struct OccluderKernel {
+    const ShapeSegment* segments = nullptr;
+    const ShapeNode* nodes = nullptr;
+    const Occluder* occluders = nullptr;
+    const std::shared_ptr<const DistanceVolume>* volumes = nullptr;
+
+    real4 volume_texel(uint volume, real3 uvw) const { return volumes[volume]->texel(uvw); }
+
+// NOLINTBEGIN: compiled as GLSL too
+#include "shaders/shared/shape_function.h"
+
+#include "shaders/shared/occluder.h"
+    // NOLINTEND
+};
+
+} // namespace anvil::kernel::f64

@@ -1,0 +1,65 @@
+// The occluders of one edit, ready for the kernels.
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/occluder/distance_volume.h"
+#include "engine/occluder/exact_distance.h"
+#include "engine/occluder/kernel_types.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace anvil {
+
+struct OccluderShape; // engine/edit/recipe.h
+struct Field;
+struct Transform;
+struct Influence;
+
+/// Flat arrays as the kernels read them, lengths relative to a local origin; `exact` and `names` have one
+/// entry per occluder.
+struct OccluderSet {
+    std::vector<kernel::f64::Occluder> occluders;
+    std::vector<kernel::f64::ShapeNode> nodes;
+    std::vector<kernel::f64::ShapeSegment> segments; ///< influence curves
+    std::vector<std::shared_ptr<const DistanceVolume>> volumes;
+    std::vector<std::shared_ptr<const ExactDistance>> exact;
+    std::vector<double> sizes; ///< diagonal of each occluder's bounds in world units; infinite for a plane
+    std::vector<std::string> names;
+    bool paper = false; ///< all act by the paper's literal influence
+
+    bool empty() const { return occluders.empty(); }
+};
+
+/// What of an occluder does not depend on pose or influence: built once a recipe, baked where the recipe says
+/// so.
+struct OccluderModel {
+    std::vector<kernel::f64::ShapeNode> nodes; ///< what the kernels evaluate; volume leaves count from 0
+    std::vector<std::shared_ptr<const DistanceVolume>> volumes;
+    std::shared_ptr<const ExactDistance> exact;
+    Box bounds; ///< in the occluder's space; infinite for unbounded shapes
+};
+
+/// @throws InputError if a baked shape is unbounded, or the Boolean tree is too deep for the kernels.
+OccluderModel build_model(const OccluderShape& shape, const Field& field, Progress& progress);
+
+/// What the occluders' defaults refer to.
+struct OccluderScale {
+    Vec3 origin;     ///< local origin, world
+    double diagonal; ///< of the mesh's bounds
+    double radius;   ///< of influence of the edit, R: sigma of a plane
+};
+
+/// Adds an occluder with its pose (world) and influence. @throws InputError if it needs more sampled fields
+/// than an edit can hold.
+void add_occluder(OccluderSet& set, const OccluderModel& model, const std::string& name,
+                  const Transform& pose, const Influence& influence, const OccluderScale& scale);
+
+/// Exact signed distance of the nearest occluder at p (relative to the local origin); +inf without occluders.
+SignedDistance exact_distance(const OccluderSet& set, const Vec3& p);
+
+/// Exact signed distance of one occluder at p (relative to the local origin).
+SignedDistance exact_distance(const OccluderSet& set, size_t occluder, const Vec3& p);
+
+} // namespace anvil

@@ -1,0 +1,355 @@
+// The edit of one vertex: blend of the handles, then advection along its path past the occluders, alike in
+// C++ and GLSL. "True-level contact": near an occluder a vertex is held at the level `margin`, which no
+// sampled field and no step can miss, and remembers by `lift` how far above its true level that is. The
+// includer provides, beside what occluder.h and shape_function.h need, `params`, `points`, `fields`,
+// `shapes`, `targets` and `start_distances`, and for C++ the macro INOUT.
+
+// The occluder that matters at a point: the one with the least clearance = distance - margin.
+struct Contact {
+    uint occluder;
+    real distance;
+    real clearance;
+    real3 normal;
+    real step; // how far a vertex may go without missing any occluder, or an influence's change
+    real skip; // how far it goes without meeting any occluder or influence at all
+};
+
+struct Path {
+    real3 from; // displacement (straight, chord) or angle in x (arc) at the segment's ends
+    real3 to;
+    real3 across; // arc: the arm's part across the axis, and its cross product with the axis
+    real3 turned;
+    real reach; // length of the segment
+};
+
+struct Vertex {
+    real3 start;
+    real3 offset; // what the occluders did, o of eq. 13: only this is accumulated
+    real lift;    // margin - true level while held, 0 while free
+    real settle;  // the level below which the vertex is never set down
+    bool inside;  // has not been outside yet
+    uint steps;
+    uint samples;
+    uint flags;
+};
+
+void sine_cosine(real angle, INOUT(real) sine, INOUT(real) cosine) {
+#ifdef __cplusplus
+    sine = std::sin(angle);
+    cosine = std::cos(angle);
+#else
+    // Vulkan promises little of sin and cos; pi / 2 in three parts keeps the reduction exact for hundreds of
+    // turns.
+    float quarter = round(angle * 0.636619772);
+    precise float r =
+        ((angle - quarter * 1.5703125) - quarter * 4.837512969970703e-4) - quarter * 7.54978994e-8;
+    float s = r * r;
+    float sine_part = r * (1.0 - s / 6.0 * (1.0 - s / 20.0 * (1.0 - s / 42.0 * (1.0 - s / 72.0))));
+    float cosine_part =
+        1.0 - s / 2.0 * (1.0 - s / 12.0 * (1.0 - s / 30.0 * (1.0 - s / 56.0 * (1.0 - s / 90.0))));
+    int phase = int(quarter) & 3;
+    sine = (phase & 1) == 0 ? sine_part : cosine_part;
+    cosine = (phase & 1) == 0 ? cosine_part : sine_part;
+    sine = (phase & 2) == 0 ? sine : -sine;
+    cosine = phase == 1 || phase == 2 ? -cosine : cosine;
+#endif
+}
+
+// R(angle) v - v for a vector v with the parts `across` and `turned`, without the cancellation of cos - 1.
+real3 arc_offset(real angle, real3 across, real3 turned) {
+    real sine = 0.0;
+    real cosine = 0.0;
+    sine_cosine(0.5 * angle, sine, cosine);
+    return 2.0 * sine * (cosine * turned - sine * across);
+}
+
+// Path value of path sample `s` (1-based; sample 0 is the start) at vertex i: sum_j alpha_j X_j, eq. 3 and 6,
+// with compensated summation, since large partial displacements cancel.
+real3 blended(uint i, uint s) {
+    PRECISE real3 sum = real3(0.0);
+    PRECISE real3 lost = real3(0.0);
+    if (s == 0u) {
+        return sum;
+    }
+    for (uint j = 0u; j < params.handle_count; ++j) {
+        real weight = curve_value(shapes[j], fields[j * params.field_stride + i]);
+        PRECISE real3 term = weight * targets[(s - 1u) * params.handle_count + j] - lost;
+        PRECISE real3 next = sum + term;
+        lost = (next - sum) - term;
+        sum = next;
+    }
+    return sum;
+}
+
+Path path_segment(uint i, uint s, real3 start) {
+    Path path;
+    path.from = blended(i, s);
+    path.to = blended(i, s + 1u);
+    path.across = real3(0.0);
+    path.turned = real3(0.0);
+    if (params.motion == MOTION_STRAIGHT) {
+        path.reach = length(path.to - path.from);
+        return path;
+    }
+    real3 arm = start - params.axis_origin;
+    path.across = arm - params.axis_direction * dot(params.axis_direction, arm);
+    path.turned = cross(params.axis_direction, arm);
+    path.reach = abs(path.to.x - path.from.x) * length(path.across);
+    if (params.motion == MOTION_CHORD) {
+        path.from = arc_offset(path.from.x, path.across, path.turned);
+        path.to = arc_offset(path.to.x, path.across, path.turned);
+        path.reach = length(path.to - path.from);
+    }
+    return path;
+}
+
+// Displacement of the undeflected path at tau in [0, 1] of the segment.
+real3 path_at(Path path, real tau) {
+    real3 value = tau >= 1.0 ? path.to : path.from + tau * (path.to - path.from);
+    if (params.motion == MOTION_ARC) {
+        return arc_offset(value.x, path.across, path.turned);
+    }
+    return value;
+}
+
+Contact contact_at(real3 p, INOUT(Vertex) vertex) {
+    Contact contact;
+    contact.occluder = 0u;
+    contact.distance = 0.0;
+    contact.clearance = 1e30;
+    contact.normal = real3(0.0);
+    contact.step = 1e30;
+    contact.skip = 1e30;
+    for (uint k = 0u; k < params.occluder_count; ++k) {
+        Probe probe = occluder_probe(k, p);
+        real clearance = probe.distance - occluders[k].margin;
+        real skip = 0.9 * clearance;
+        real step = max(occluders[k].step, skip);
+        real width = occluders[k].width;
+        if (occluders[k].influence == INFLUENCE_SOFT) {
+            real beyond = max(probe.distance - SOFT_REACH * width, real(0.0));
+            skip = min(skip, beyond);
+            step = min(step, beyond + width / SOFT_FINENESS);
+        } else if (occluders[k].influence == INFLUENCE_CURVE) {
+            real beyond = max(probe.distance - width, real(0.0));
+            skip = min(skip, beyond);
+            step = min(step, beyond + width / CURVE_FINENESS);
+        }
+        contact.skip = min(contact.skip, skip);
+        contact.step = min(contact.step, step);
+        if (clearance < contact.clearance) {
+            contact.occluder = k;
+            contact.distance = probe.distance;
+            contact.clearance = clearance;
+            contact.normal = probe.normal;
+        }
+    }
+    vertex.samples += params.occluder_count;
+    return contact;
+}
+
+// Moves p along normals until its clearance is 0. False in a corner, where that fails.
+bool put_on_level(INOUT(real3) offset, real3 base, INOUT(Contact) contact, INOUT(Vertex) vertex) {
+    for (uint i = 0u; i < NEWTON_LIMIT; ++i) {
+        if (abs(contact.clearance) <= NEWTON_TOLERANCE * occluders[contact.occluder].step) {
+            return true;
+        }
+        offset -= contact.clearance * contact.normal;
+        contact = contact_at(base + offset, vertex);
+    }
+    return contact.clearance >= -CORNER_DEPTH * occluders[contact.occluder].step;
+}
+
+// How much an influence slows a vertex that approaches: eq. 17 as a share of the step r along direction u.
+real slowing(Contact contact, real lift, real3 u, real r) {
+    Occluder occluder = occluders[contact.occluder];
+    real level = max(contact.distance - lift, real(0.0));
+    real approach = max(real(0.0), -dot(u, contact.normal)) * r;
+    if (occluder.influence == INFLUENCE_SOFT) {
+        real x = level / occluder.width;
+        return occluder.strength * approach * exp(-x * x);
+    }
+    if (occluder.influence == INFLUENCE_CURVE) {
+        return occluder.strength * approach * curve_value(occluder.curve, level / occluder.width);
+    }
+    return 0.0;
+}
+
+// Takes a vertex that starts in the band [0, margin) to the margin; its true level stays start_distance.
+Contact lifted(INOUT(Vertex) vertex, real start_distance) {
+    Contact contact = contact_at(vertex.start, vertex);
+    real level = max(start_distance, real(0.0));
+    real margin = occluders[contact.occluder].margin;
+    if (level >= margin || contact.clearance >= 0.0) {
+        return contact;
+    }
+    Contact raised = contact;
+    real3 offset = real3(0.0);
+    if (put_on_level(offset, vertex.start, raised, vertex)) {
+        vertex.offset = offset;
+        vertex.lift = margin - level;
+        return raised;
+    }
+    return contact;
+}
+
+// A vertex still inside is pushed outward by at most its own step, and starts to be held once it is outside.
+Contact emerge(INOUT(Vertex) vertex, real3 base, real3 offset, real r) {
+    Contact contact = contact_at(base + offset, vertex);
+    real push = contact.distance < 0.0 ? min(-contact.distance, r) : real(0.0);
+    vertex.offset = offset + push * contact.normal;
+    if (push > 0.0) {
+        contact = contact_at(base + vertex.offset, vertex);
+    }
+    real level = contact.distance;
+    if (level < -NEWTON_TOLERANCE * occluders[contact.occluder].step) {
+        return contact;
+    }
+    vertex.inside = false;
+    real margin = occluders[contact.occluder].margin;
+    real3 raised = vertex.offset;
+    Contact held = contact;
+    if (level < margin && put_on_level(raised, base, held, vertex)) {
+        vertex.offset = raised;
+        vertex.lift = margin - max(level, real(0.0));
+        return held;
+    }
+    return contact;
+}
+
+// One step of the contact rules from `here`, a path increment `move` long r, to base = start + path(next
+// tau).
+Contact contact_step(INOUT(Vertex) vertex, Contact here, real3 base, real3 move, real r) {
+    real3 u = r > 0.0 ? move / r : real3(0.0);
+    real3 offset = vertex.offset;
+    if (vertex.inside) {
+        return emerge(vertex, base, offset, r);
+    }
+    offset += slowing(here, vertex.lift, u, r) * here.normal;
+    Contact contact = contact_at(base + offset, vertex);
+    if (contact.clearance >= vertex.lift) { // free, or free again
+        vertex.offset = offset - vertex.lift * contact.normal;
+        vertex.lift = 0.0;
+        return contact;
+    }
+    vertex.flags |= VERTEX_TOUCHED;
+    Contact held = contact;
+    real3 held_offset = offset;
+    Occluder occluder = occluders[contact.occluder];
+    bool ok = put_on_level(held_offset, base, held, vertex);
+    // Held on one smooth surface a vertex goes no farther than its step; farther is a jump across a corner.
+    if (!ok ||
+        length(held_offset + move - vertex.offset) > 2.0 * r + 4.0 * NEWTON_TOLERANCE * occluder.step) {
+        vertex.offset -= move; // stay at the last position
+        return here;
+    }
+    vertex.offset = held_offset;
+    vertex.lift = min(vertex.lift - contact.clearance, occluder.margin - min(occluder.settle, vertex.settle));
+    return held;
+}
+
+// The next tau: adaptive by the contact's step, or whole steps of the fixed grid.
+real next_tau(real tau, Path path, Contact here) {
+    if (params.steps == STEPS_FIXED) {
+        real count = real(params.step_limit);
+        real whole = max(floor(here.skip * count / path.reach), real(1.0));
+        real done = floor(tau * count + 0.5);
+        return min(done + whole, count) / count;
+    }
+    real next = tau + here.step / path.reach;
+    return next > 1.0 - 1e-6 ? real(1.0) : next;
+}
+
+// Follows one path segment. Returns the path's value where the vertex ended (before 1 if the limit was
+// reached).
+real3 follow(INOUT(Vertex) vertex, Path path, INOUT(Contact) here) {
+    real tau = 0.0;
+    real3 at = path_at(path, tau);
+    while (tau < 1.0) {
+        if (params.steps == STEPS_ADAPTIVE && vertex.steps >= params.step_limit) {
+            vertex.flags |= VERTEX_LIMIT_REACHED;
+            return at;
+        }
+        real next = next_tau(tau, path, here);
+        real3 to = path_at(path, next);
+        real3 move = to - at;
+        here = contact_step(vertex, here, vertex.start + to, move, length(move));
+        vertex.steps += 1u;
+        tau = next;
+        at = to;
+    }
+    return at;
+}
+
+// Lowers a held vertex from the margin to its true level, and never below the level where fields may err.
+void set_down(INOUT(Vertex) vertex, real3 base, Contact here) {
+    if (vertex.inside || vertex.lift <= 0.0) {
+        return;
+    }
+    vertex.offset -= vertex.lift * here.normal;
+    for (uint i = 0u; i < 4u; ++i) {
+        Contact contact = contact_at(base + vertex.offset, vertex);
+        real missing = min(occluders[contact.occluder].settle, vertex.settle) - contact.distance;
+        if (missing <= NEWTON_TOLERANCE * NEWTON_TOLERANCE * occluders[contact.occluder].step) {
+            return;
+        }
+        vertex.offset += missing * contact.normal;
+    }
+}
+
+// The paper's own rule, eq. 11-17 to the letter: N equal steps, no margin, no limit.
+real3 follow_paper(INOUT(Vertex) vertex, Path path) {
+    for (uint i = 1u; i <= params.step_limit; ++i) {
+        real3 q = vertex.start + path_at(path, real(i) / real(params.step_limit)) + vertex.offset;
+        Contact contact = contact_at(q, vertex);
+        real psi = contact.distance <= 0.0 ? -contact.distance : exp(-contact.distance * contact.distance);
+        vertex.offset += psi * contact.normal;
+        vertex.steps += 1u;
+    }
+    return path_at(path, 1.0);
+}
+
+real whole_length(uint i, real3 start) {
+    real total = 0.0;
+    for (uint s = 0u; s < params.sample_count; ++s) {
+        total += path_segment(i, s, start).reach;
+    }
+    return total;
+}
+
+// Point i from its place before the edit to its displacement after it.
+VertexResult deformed(uint i) {
+    Vertex vertex;
+    vertex.start = points[i];
+    vertex.offset = real3(0.0);
+    vertex.lift = 0.0;
+    vertex.settle = max(start_distances[i], real(0.0));
+    vertex.inside = start_distances[i] < 0.0;
+    vertex.steps = 0u;
+    vertex.samples = 0u;
+    vertex.flags = vertex.inside ? VERTEX_STARTED_INSIDE : 0u;
+    real3 at = real3(0.0);
+    if (params.occluder_count == 0u) {
+        at = path_at(path_segment(i, params.sample_count - 1u, vertex.start), 1.0);
+    } else if (whole_length(i, vertex.start) > params.path_epsilon) {
+        bool lifts = params.paper == 0u && !vertex.inside;
+        Contact here = lifts ? lifted(vertex, start_distances[i]) : contact_at(vertex.start, vertex);
+        for (uint s = 0u; s < params.sample_count && (vertex.flags & VERTEX_LIMIT_REACHED) == 0u; ++s) {
+            Path path = path_segment(i, s, vertex.start);
+            if (params.paper != 0u) {
+                at = follow_paper(vertex, path);
+            } else if (path.reach > 0.0) {
+                at = follow(vertex, path, here);
+            }
+        }
+        if (params.paper == 0u) {
+            set_down(vertex, vertex.start + at, here);
+        }
+    }
+    VertexResult result;
+    result.displacement = at + vertex.offset;
+    result.steps = vertex.steps;
+    result.samples = vertex.samples;
+    result.flags = vertex.flags;
+    return result;
+}

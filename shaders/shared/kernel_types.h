@@ -1,0 +1,119 @@
+// What crosses from C++ to GLSL, once. The includer defines real, real3 and uint: C++ includes this file for
+// float (the GPU's layout, scalar) and for double (the reference). Lengths are world units relative to the
+// mesh's origin.
+
+// One cubic of a shape function: phi(t) = c0 + s (c1 + s (c2 + s c3)), s = t - begin, from `begin` to the
+// next one.
+struct ShapeSegment {
+    real begin;
+    real c0;
+    real c1;
+    real c2;
+    real c3;
+};
+
+// A run of ShapeSegments: the shape function of one handle, or an occluder's own influence curve.
+struct CurveRange {
+    uint first;
+    uint count;
+};
+
+// ShapeNode::kind. Leaves push a distance, operators combine the two on top (postfix order).
+const uint SHAPE_SPHERE = 0u;
+const uint SHAPE_BOX = 1u;
+const uint SHAPE_CYLINDER = 2u;
+const uint SHAPE_CAPSULE = 3u;
+const uint SHAPE_CONE = 4u;
+const uint SHAPE_TORUS = 5u;
+const uint SHAPE_PLANE = 6u;
+const uint SHAPE_VOLUME = 7u;
+const uint SHAPE_UNION = 8u;
+const uint SHAPE_INTERSECTION = 9u;
+const uint SHAPE_SUBTRACTION = 10u;
+const uint MAX_SHAPE_STACK = 8u; // operands that wait at once
+const uint MAX_VOLUMES = 8u;     // sampled fields of one edit
+
+// A leaf or operator of an occluder. Leaf space: axes rows axis_x..z, `origin` and `scale` as seen from the
+// occluder's space. size: sphere (radius), box (half extents), cylinder, capsule, cone (radius, half height),
+// torus (major, minor), plane (unit normal), volume (half extents of the box of outermost voxel centres).
+// extra: box rounding, plane offset, volume voxel width.
+struct ShapeNode {
+    uint kind;
+    uint volume;
+    real3 size;
+    real extra;
+    real3 axis_x;
+    real3 axis_y;
+    real3 axis_z;
+    real3 origin;
+    real scale;
+};
+
+// Occluder::influence
+const uint INFLUENCE_HARD = 0u;
+const uint INFLUENCE_SOFT = 1u;
+const uint INFLUENCE_CURVE = 2u;
+const uint INFLUENCE_PAPER = 3u;
+
+// An occluder's pose (rows of the rotation into its space, origin, uniform scale), its shape and how it acts:
+// contact at level `margin` (m) with steps of at least `step` (h / 2), settling at `settle` (e); the
+// influence's strength and width (sigma of `soft`, w of a curve).
+struct Occluder {
+    real3 axis_x;
+    real3 axis_y;
+    real3 axis_z;
+    real3 origin;
+    real scale;
+    uint first_node;
+    uint node_count;
+    real margin;
+    real step;
+    real settle;
+    uint influence;
+    real strength;
+    real width;
+    CurveRange curve;
+};
+
+const uint MOTION_STRAIGHT = 0u;
+const uint MOTION_ARC = 1u;   // rotation, swept along the arc
+const uint MOTION_CHORD = 2u; // rotation, swept along the chord from start to end
+const uint STEPS_ADAPTIVE = 0u;
+const uint STEPS_FIXED = 1u;
+
+// One edit's motion (push constants; 64 bytes in float).
+struct KernelParams {
+    uint point_count;
+    uint field_stride; // entries of `fields` between two handles
+    uint handle_count;
+    uint sample_count; // path samples; a straight path has 1
+    uint occluder_count;
+    uint motion;
+    uint steps;
+    uint step_limit; // fixed: the number of steps; adaptive: the most a vertex may take
+    uint paper;      // 1: all occluders act by the paper's literal influence
+    real3 axis_origin;
+    real3 axis_direction;
+    real path_epsilon; // paths shorter than this do not move a vertex
+};
+
+// VertexResult::flags
+const uint VERTEX_STARTED_INSIDE = 1u;
+const uint VERTEX_LIMIT_REACHED = 2u;
+const uint VERTEX_TOUCHED = 4u;
+
+// What the kernel says of one vertex.
+struct VertexResult {
+    real3 displacement;
+    uint steps;
+    uint samples;
+    uint flags;
+};
+
+const real NEWTON_TOLERANCE = 1e-4; // of the occluder's step, when a vertex is put back on a level
+const uint NEWTON_LIMIT = 8u;
+const real CORNER_DEPTH =
+    0.1; // of the step: below the level by more, after NEWTON_LIMIT projections, is a corner
+const real SOFT_REACH = 4.0;    // in sigma: exp(-16) is below float's resolution
+const real SOFT_FINENESS = 8.0; // steps per sigma within the reach
+const real CURVE_FINENESS = 32.0;

@@ -1,0 +1,205 @@
+// Signed distance (< 0 inside) and outward unit normal of occluders, alike in C++ and GLSL.
+// The includer provides the arrays `nodes` and `occluders` and `real4 volume_texel(uint volume, real3 uvw)`:
+// filtered (normal, distance) of a sampled field, uvw in [0, 1] between the outermost voxel centres.
+
+struct Probe {
+    real distance;
+    real3 normal;
+};
+
+real3 unit_or(real3 v, real3 fallback) {
+    real size = length(v);
+    return size > 0.0 ? v / size : fallback;
+}
+
+real sign_of(real x) {
+    return x < 0.0 ? real(-1.0) : real(1.0);
+}
+
+Probe sphere_probe(real3 p, real radius) {
+    Probe result;
+    result.distance = length(p) - radius;
+    result.normal = unit_or(p, real3(0.0, 1.0, 0.0));
+    return result;
+}
+
+// Rounded box: `half_size` includes the rounding.
+Probe box_probe(real3 p, real3 half_size, real rounding) {
+    real3 side = real3(sign_of(p.x), sign_of(p.y), sign_of(p.z));
+    real3 q = abs(p) - (half_size - real3(rounding));
+    real3 outside = max(q, real3(0.0));
+    real reach = length(outside);
+    real deepest = max(q.x, max(q.y, q.z));
+    Probe result;
+    result.distance = reach + min(deepest, real(0.0)) - rounding;
+    if (reach > 0.0) {
+        result.normal = side * outside / reach;
+    } else if (deepest == q.x) {
+        result.normal = real3(side.x, 0.0, 0.0);
+    } else if (deepest == q.y) {
+        result.normal = real3(0.0, side.y, 0.0);
+    } else {
+        result.normal = real3(0.0, 0.0, side.z);
+    }
+    return result;
+}
+
+// A solid of revolution about y from its half plane: distance and gradient (radial, axial) there.
+Probe revolved(real3 p, real radial, real distance, real gradient_radial, real gradient_axial) {
+    Probe result;
+    result.distance = distance;
+    real3 outward = radial > 0.0 ? real3(p.x / radial, 0.0, p.z / radial) : real3(1.0, 0.0, 0.0);
+    result.normal = gradient_radial * outward + real3(0.0, gradient_axial, 0.0);
+    return result;
+}
+
+Probe cylinder_probe(real3 p, real radius, real half_height) {
+    real radial = length(real3(p.x, 0.0, p.z));
+    real side = sign_of(p.y);
+    real a = radial - radius;
+    real b = abs(p.y) - half_height;
+    if (a > 0.0 && b > 0.0) {
+        real reach = length(real3(a, b, 0.0));
+        return revolved(p, radial, reach, a / reach, side * b / reach);
+    }
+    if (a > b) {
+        return revolved(p, radial, a, real(1.0), real(0.0));
+    }
+    return revolved(p, radial, b, real(0.0), side);
+}
+
+// `half_height`: of the segment between the two cap centres.
+Probe capsule_probe(real3 p, real radius, real half_height) {
+    real3 q = real3(p.x, p.y - clamp(p.y, -half_height, half_height), p.z);
+    Probe result;
+    result.distance = length(q) - radius;
+    result.normal = unit_or(q, real3(1.0, 0.0, 0.0));
+    return result;
+}
+
+// Base of the given radius at y = -half_height, apex at y = +half_height.
+Probe cone_probe(real3 p, real radius, real half_height) {
+    real radial = length(real3(p.x, 0.0, p.z));
+    real slant = length(real3(radius, 2.0 * half_height, 0.0));
+    real normal_radial = 2.0 * half_height / slant; // outward normal of the mantle in the half plane
+    real normal_axial = radius / slant;
+    real along =
+        clamp(((radius - radial) * radius + (p.y + half_height) * 2.0 * half_height) / (slant * slant),
+              real(0.0), real(1.0));
+    real mantle_radial = radial - radius * (1.0 - along);
+    real mantle_axial = p.y + half_height * (1.0 - 2.0 * along);
+    real base_radial = radial - min(radial, radius);
+    real base_axial = p.y + half_height;
+    real mantle = length(real3(mantle_radial, mantle_axial, 0.0));
+    real base = length(real3(base_radial, base_axial, 0.0));
+    real above_mantle = (radial - radius) * normal_radial + (p.y + half_height) * normal_axial;
+    bool inside = above_mantle < 0.0 && base_axial > 0.0;
+    bool to_mantle = mantle <= base;
+    if (inside) {
+        return to_mantle ? revolved(p, radial, -mantle, normal_radial, normal_axial)
+                         : revolved(p, radial, -base, real(0.0), real(-1.0));
+    }
+    if (to_mantle) {
+        return mantle > 0.0 ? revolved(p, radial, mantle, mantle_radial / mantle, mantle_axial / mantle)
+                            : revolved(p, radial, real(0.0), normal_radial, normal_axial);
+    }
+    return base > 0.0 ? revolved(p, radial, base, base_radial / base, base_axial / base)
+                      : revolved(p, radial, real(0.0), real(0.0), real(-1.0));
+}
+
+Probe torus_probe(real3 p, real major, real minor) {
+    real radial = length(real3(p.x, 0.0, p.z));
+    real a = radial - major;
+    real reach = length(real3(a, p.y, 0.0));
+    real inverse = reach > 0.0 ? real(1.0) / reach : real(0.0);
+    return revolved(p, radial, reach - minor, reach > 0.0 ? a * inverse : real(1.0), p.y * inverse);
+}
+
+// Sampled field. Outside its box: a lower bound of the distance for an occluder that lies inside the box.
+Probe volume_probe(uint volume, real3 p, real3 half_size) {
+    real3 c = clamp(p, -half_size, half_size);
+    real4 texel = volume_texel(volume, 0.5 * (c / half_size) + real3(0.5));
+    real3 normal = unit_or(real3(texel.x, texel.y, texel.z), real3(0.0, 1.0, 0.0));
+    real3 beyond = p - c;
+    real reach = length(beyond);
+    Probe result;
+    result.distance = texel.w;
+    result.normal = normal;
+    if (reach > 0.0) {
+        result.distance = sqrt(reach * reach + texel.w * texel.w);
+        result.normal = unit_or(beyond + max(texel.w, real(0.0)) * normal, normal);
+    }
+    return result;
+}
+
+Probe leaf_probe(ShapeNode node, real3 p) {
+    real3 arm = (p - node.origin) / node.scale;
+    real3 q = real3(dot(node.axis_x, arm), dot(node.axis_y, arm), dot(node.axis_z, arm));
+    Probe result;
+    if (node.kind == SHAPE_SPHERE) {
+        result = sphere_probe(q, node.size.x);
+    } else if (node.kind == SHAPE_BOX) {
+        result = box_probe(q, node.size, node.extra);
+    } else if (node.kind == SHAPE_CYLINDER) {
+        result = cylinder_probe(q, node.size.x, node.size.y);
+    } else if (node.kind == SHAPE_CAPSULE) {
+        result = capsule_probe(q, node.size.x, node.size.y);
+    } else if (node.kind == SHAPE_CONE) {
+        result = cone_probe(q, node.size.x, node.size.y);
+    } else if (node.kind == SHAPE_TORUS) {
+        result = torus_probe(q, node.size.x, node.size.y);
+    } else if (node.kind == SHAPE_PLANE) {
+        result.distance = dot(node.size, q) - node.extra;
+        result.normal = node.size;
+    } else {
+        result = volume_probe(node.volume, q, node.size);
+    }
+    result.distance = result.distance * node.scale;
+    result.normal =
+        node.axis_x * result.normal.x + node.axis_y * result.normal.y + node.axis_z * result.normal.z;
+    return result;
+}
+
+// Boolean operators of solids on distances: exact zero set and sign, elsewhere a bound.
+Probe combined(uint operation, Probe a, Probe b) {
+    if (operation == SHAPE_UNION) {
+        return a.distance <= b.distance ? a : b;
+    }
+    if (operation == SHAPE_SUBTRACTION) {
+        b.distance = -b.distance;
+        b.normal = -b.normal;
+    }
+    return a.distance >= b.distance ? a : b;
+}
+
+// The shape of `count` nodes from `first` at p, both in the occluder's space.
+Probe shape_probe(uint first, uint count, real3 p) {
+    if (count == 1u) {
+        return leaf_probe(nodes[first], p);
+    }
+    Probe stack[MAX_SHAPE_STACK];
+    uint top = 0u;
+    for (uint i = 0u; i < count; ++i) {
+        ShapeNode node = nodes[first + i];
+        if (node.kind >= SHAPE_UNION) {
+            stack[top - 2u] = combined(node.kind, stack[top - 2u], stack[top - 1u]);
+            --top;
+        } else {
+            stack[top] = leaf_probe(node, p);
+            ++top;
+        }
+    }
+    return stack[0];
+}
+
+// Occluder `index` at p, both relative to the mesh's origin.
+Probe occluder_probe(uint index, real3 p) {
+    Occluder occluder = occluders[index];
+    real3 arm = (p - occluder.origin) / occluder.scale;
+    real3 q = real3(dot(occluder.axis_x, arm), dot(occluder.axis_y, arm), dot(occluder.axis_z, arm));
+    Probe result = shape_probe(occluder.first_node, occluder.node_count, q);
+    result.distance = result.distance * occluder.scale;
+    result.normal = occluder.axis_x * result.normal.x + occluder.axis_y * result.normal.y +
+                    occluder.axis_z * result.normal.z;
+    return result;
+}
