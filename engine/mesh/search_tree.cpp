@@ -1,0 +1,257 @@
+#include "engine/mesh/search_tree.h"
+
+#include <array>
+
+namespace anvil {
+
+namespace {
+
+constexpr size_t leaf_size = 4;
+constexpr int bin_count = 16;
+// Below this depth the halves are equal in number, so that no arrangement of triangles makes the tree deep.
+constexpr int balanced_depth = 48;
+constexpr size_t stack_size = balanced_depth + 40;
+
+double dot2(const Vec3& v) {
+    return glm::dot(v, v);
+}
+
+/// Parameter in [0, 1] of the point of segment ab nearest to a + ap; 0 if the segment is a point.
+double segment_parameter(const Vec3& ap, const Vec3& ab) {
+    const double length2 = dot2(ab);
+    return length2 > 0 ? std::clamp(glm::dot(ap, ab) / length2, 0.0, 1.0) : 0.0;
+}
+
+struct Candidate {
+    double distance2 = infinity;
+    Vec3 barycentric{0};
+    Vec3 offset{0}; ///< from corner a
+
+    void offer(const Vec3& weights, const Vec3& from_a, const Vec3& ap) {
+        const double d2 = dot2(ap - from_a);
+        if (d2 < distance2) {
+            *this = {d2, weights, from_a};
+        }
+    }
+};
+
+/// Weights of b and c at the foot of the perpendicular from ap. In a needle the first solution carries
+/// eps / sine; solving again for what is left of ap takes it to rounding.
+Vec3 foot(const Vec3& ap, const Vec3& ab, const Vec3& ac, const Vec3& normal, double area2, bool needle) {
+    double v = 0;
+    double w = 0;
+    for (int round = 0; round < (needle ? 3 : 1); ++round) {
+        const Vec3 left = ap - (v * ab + w * ac);
+        v += glm::dot(glm::cross(left, ac), normal) / area2;
+        w += glm::dot(glm::cross(ab, left), normal) / area2;
+    }
+    return {1 - v - w, v, w};
+}
+
+/// Every candidate is a point of the triangle, so that whatever rounding does to a needle's normal, the
+/// least distance stands. The edges are tried only if the foot of the perpendicular lies outside.
+Candidate nearest(const Vec3& ap, const Vec3& ab, const Vec3& ac) {
+    Candidate best;
+    const Vec3 normal = glm::cross(ab, ac);
+    const double area2 = dot2(normal);
+    const Vec3 bc = ac - ab;
+    const double bc2 = dot2(bc);
+    const double sides4 = std::max(dot2(ab), bc2) * std::max(dot2(ac), bc2);
+    // A normal that is mostly rounding says nothing about inside and outside.
+    if (area2 > 1e-24 * sides4) {
+        const bool needle = area2 < 1e-6 * sides4;
+        const Vec3 weights = foot(ap, ab, ac, normal, area2, needle);
+        if (weights.x >= 0 && weights.y >= 0 && weights.z >= 0) {
+            best.offer(weights, weights.y * ab + weights.z * ac, ap);
+            if (!needle) {
+                return best;
+            }
+        }
+    }
+    const double on_ab = segment_parameter(ap, ab);
+    best.offer({1 - on_ab, on_ab, 0}, on_ab * ab, ap);
+    const double on_ac = segment_parameter(ap, ac);
+    best.offer({1 - on_ac, 0, on_ac}, on_ac * ac, ap);
+    const double on_bc = segment_parameter(ap - ab, bc);
+    best.offer({0, 1 - on_bc, on_bc}, on_bc == 1 ? ac : ab + on_bc * bc, ap);
+    return best;
+}
+
+double box_distance2(const Box& box, const Vec3& p) {
+    return dot2(glm::max(glm::max(box.low - p, p - box.high), Vec3(0)));
+}
+
+/// Half the surface area; only its ratios matter.
+double half_area(const Box& box) {
+    const Vec3 e = box.high - box.low;
+    return e.x * e.y + e.y * e.z + e.z * e.x;
+}
+
+void include(Box& box, const Box& other) {
+    box.low = glm::min(box.low, other.low);
+    box.high = glm::max(box.high, other.high);
+}
+
+struct Bin {
+    Box box;
+    size_t count = 0;
+};
+
+/// The cut between bins that costs least by the surface area heuristic; 0 if all items share one bin.
+int best_cut(const std::array<Bin, bin_count>& bins) {
+    std::array<double, bin_count> right_cost{};
+    Bin right;
+    for (int i = bin_count - 1; i > 0; --i) {
+        include(right.box, bins[i].box);
+        right.count += bins[i].count;
+        right_cost[i] = right.count ? half_area(right.box) * static_cast<double>(right.count) : infinity;
+    }
+    Bin left;
+    int best = 0;
+    double best_cost = infinity;
+    for (int i = 1; i < bin_count; ++i) {
+        include(left.box, bins[i - 1].box);
+        left.count += bins[i - 1].count;
+        const double cost =
+            left.count ? half_area(left.box) * static_cast<double>(left.count) + right_cost[i] : infinity;
+        if (cost < best_cost) {
+            best_cost = cost;
+            best = i;
+        }
+    }
+    return best;
+}
+
+} // namespace
+
+ClosestPoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Candidate found = nearest(p - a, b - a, c - a);
+    return {0, found.barycentric, a + found.offset, std::sqrt(found.distance2)};
+}
+
+SearchTree::SearchTree(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+    std::vector<Item> items(triangles.size());
+    for (size_t t = 0; t < triangles.size(); ++t) {
+        Item& item = items[t];
+        for (const uint32_t v : triangles[t]) {
+            item.box.include(positions[v]);
+        }
+        item.centre = item.box.centre();
+        item.triangle = static_cast<uint32_t>(t);
+    }
+    nodes_.reserve(triangles.size() / 2 + 1);
+    if (!items.empty()) {
+        build(items, 0, 0);
+    }
+    order_.reserve(items.size());
+    corners_.reserve(items.size());
+    for (const Item& item : items) {
+        const Triangle& t = triangles[item.triangle];
+        order_.push_back(item.triangle);
+        corners_.push_back({positions[t[0]], positions[t[1]], positions[t[2]]});
+    }
+}
+
+void SearchTree::build(std::span<Item> items, uint32_t first, int depth) {
+    const size_t index = nodes_.size();
+    nodes_.emplace_back();
+    Box box;
+    for (const Item& item : items) {
+        include(box, item.box);
+    }
+    nodes_[index].box = box;
+    if (items.size() <= leaf_size) {
+        nodes_[index].first = first;
+        nodes_[index].count = static_cast<uint32_t>(items.size());
+        return;
+    }
+    const size_t middle = split(items, depth);
+    build(items.first(middle), first, depth + 1);
+    nodes_[index].first = static_cast<uint32_t>(nodes_.size());
+    build(items.subspan(middle), first + static_cast<uint32_t>(middle), depth + 1);
+}
+
+/// Reorders the items into two parts, neither empty; returns where the second begins.
+size_t SearchTree::split(std::span<Item> items, int depth) {
+    Box centres;
+    for (const Item& item : items) {
+        centres.include(item.centre);
+    }
+    const Vec3 extent = centres.high - centres.low;
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    const double scale = bin_count / extent[axis];
+    if (depth < balanced_depth && std::isfinite(scale)) {
+        const auto bin_of = [&](const Item& item) {
+            return std::min(static_cast<int>((item.centre[axis] - centres.low[axis]) * scale), bin_count - 1);
+        };
+        std::array<Bin, bin_count> bins;
+        for (const Item& item : items) {
+            Bin& bin = bins[bin_of(item)];
+            include(bin.box, item.box);
+            ++bin.count;
+        }
+        if (const int cut = best_cut(bins)) {
+            const auto second = std::partition(items.begin(), items.end(),
+                                               [&](const Item& item) { return bin_of(item) < cut; });
+            return static_cast<size_t>(second - items.begin());
+        }
+    }
+    const size_t middle = items.size() / 2;
+    std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(middle), items.end(),
+                     [axis](const Item& a, const Item& b) {
+                         return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis]
+                                                                 : a.triangle < b.triangle;
+                     });
+    return middle;
+}
+
+ClosestPoint SearchTree::closest(const Vec3& query, double max_distance) const {
+    ClosestPoint best;
+    if (nodes_.empty() || !is_finite(query) || !(max_distance >= 0)) {
+        return best;
+    }
+    Candidate nearest_found;
+    nearest_found.distance2 = max_distance * max_distance;
+    size_t nearest_slot = 0;
+    struct Entry {
+        uint32_t node;
+        double distance2;
+    };
+    std::array<Entry, stack_size> stack;
+    size_t depth = 0;
+    stack[depth++] = {0, box_distance2(nodes_[0].box, query)};
+    while (depth > 0) {
+        const Entry entry = stack[--depth];
+        if (entry.distance2 > nearest_found.distance2) {
+            continue;
+        }
+        const Node& node = nodes_[entry.node];
+        for (size_t slot = node.first; slot < node.first + node.count; ++slot) {
+            const Corners& t = corners_[slot];
+            const Candidate found = nearest(query - t.a, t.b - t.a, t.c - t.a);
+            if (found.distance2 < nearest_found.distance2 ||
+                (found.distance2 == nearest_found.distance2 && order_[slot] < best.triangle)) {
+                nearest_found = found;
+                nearest_slot = slot;
+                best.triangle = order_[slot];
+            }
+        }
+        if (node.count == 0) {
+            Entry near{entry.node + 1, box_distance2(nodes_[entry.node + 1].box, query)};
+            Entry far{node.first, box_distance2(nodes_[node.first].box, query)};
+            if (far.distance2 < near.distance2) {
+                std::swap(near, far);
+            }
+            stack[depth++] = far;
+            stack[depth++] = near;
+        }
+    }
+    if (best.found()) {
+        best.barycentric = nearest_found.barycentric;
+        best.position = corners_[nearest_slot].a + nearest_found.offset;
+        best.distance = std::sqrt(nearest_found.distance2);
+    }
+    return best;
+}
+
+} // namespace anvil
