@@ -175,19 +175,18 @@ real slowing(Contact contact, real lift, real3 u, real r) {
     return 0.0;
 }
 
-// Takes a vertex that starts in the band [0, margin) to the margin; its true level stays start_distance.
-Contact lifted(INOUT(Vertex) vertex, real start_distance) {
+// Takes a vertex that starts in the band below the margin up to it; `lift` remembers how far.
+Contact lifted(INOUT(Vertex) vertex) {
     Contact contact = contact_at(vertex.start, vertex);
-    real level = max(start_distance, real(0.0));
-    real margin = occluders[contact.occluder].margin;
-    if (level >= margin || contact.clearance >= 0.0) {
+    vertex.settle = min(vertex.settle, contact.distance);
+    if (contact.clearance >= 0.0) {
         return contact;
     }
     Contact raised = contact;
     real3 offset = real3(0.0);
     if (put_on_level(offset, vertex.start, raised, vertex)) {
         vertex.offset = offset;
-        vertex.lift = margin - level;
+        vertex.lift = raised.clearance - contact.clearance;
         return raised;
     }
     return contact;
@@ -201,17 +200,15 @@ Contact emerge(INOUT(Vertex) vertex, real3 base, real3 offset, real r) {
     if (push > 0.0) {
         contact = contact_at(base + vertex.offset, vertex);
     }
-    real level = contact.distance;
-    if (level < -NEWTON_TOLERANCE * occluders[contact.occluder].step) {
+    if (contact.distance < -NEWTON_TOLERANCE * occluders[contact.occluder].step) {
         return contact;
     }
     vertex.inside = false;
-    real margin = occluders[contact.occluder].margin;
     real3 raised = vertex.offset;
     Contact held = contact;
-    if (level < margin && put_on_level(raised, base, held, vertex)) {
+    if (contact.clearance < 0.0 && put_on_level(raised, base, held, vertex)) {
         vertex.offset = raised;
-        vertex.lift = margin - max(level, real(0.0));
+        vertex.lift = held.clearance - contact.clearance;
         return held;
     }
     return contact;
@@ -235,16 +232,16 @@ Contact contact_step(INOUT(Vertex) vertex, Contact here, real3 base, real3 move,
     vertex.flags |= VERTEX_TOUCHED;
     Contact held = contact;
     real3 held_offset = offset;
-    Occluder occluder = occluders[contact.occluder];
     bool ok = put_on_level(held_offset, base, held, vertex);
     // Held on one smooth surface a vertex goes no farther than its step; farther is a jump across a corner.
-    if (!ok ||
-        length(held_offset + move - vertex.offset) > 2.0 * r + 4.0 * NEWTON_TOLERANCE * occluder.step) {
+    if (!ok || length(held_offset + move - vertex.offset) >
+                   2.0 * r + 4.0 * NEWTON_TOLERANCE * occluders[contact.occluder].step) {
         vertex.offset -= move; // stay at the last position
         return here;
     }
     vertex.offset = held_offset;
-    vertex.lift = min(vertex.lift - contact.clearance, occluder.margin - min(occluder.settle, vertex.settle));
+    real lowest = min(occluders[held.occluder].settle, vertex.settle);
+    vertex.lift = min(vertex.lift - contact.clearance + held.clearance, held.distance - lowest);
     return held;
 }
 
@@ -309,6 +306,13 @@ real3 follow_paper(INOUT(Vertex) vertex, Path path) {
     return path_at(path, 1.0);
 }
 
+// The occluders have no bigger effect than the displacement that they act on (section 3.2 of the paper): a
+// vertex that they moved ends no farther from its start than its path is long.
+real3 bounded_by(real3 displacement, real path_length) {
+    real size = length(displacement);
+    return size > path_length ? displacement * (path_length / size) : displacement;
+}
+
 real whole_length(uint i, real3 start) {
     real total = 0.0;
     for (uint s = 0u; s < params.sample_count; ++s) {
@@ -329,11 +333,12 @@ VertexResult deformed(uint i) {
     vertex.samples = 0u;
     vertex.flags = vertex.inside ? VERTEX_STARTED_INSIDE : 0u;
     real3 at = real3(0.0);
+    bool lifts = params.paper == 0u && !vertex.inside;
+    real path_length = params.occluder_count > 0u ? whole_length(i, vertex.start) : real(0.0);
     if (params.occluder_count == 0u) {
         at = path_at(path_segment(i, params.sample_count - 1u, vertex.start), 1.0);
-    } else if (whole_length(i, vertex.start) > params.path_epsilon) {
-        bool lifts = params.paper == 0u && !vertex.inside;
-        Contact here = lifts ? lifted(vertex, start_distances[i]) : contact_at(vertex.start, vertex);
+    } else if (path_length > params.path_epsilon) {
+        Contact here = lifts ? lifted(vertex) : contact_at(vertex.start, vertex);
         for (uint s = 0u; s < params.sample_count && (vertex.flags & VERTEX_LIMIT_REACHED) == 0u; ++s) {
             Path path = path_segment(i, s, vertex.start);
             if (params.paper != 0u) {
@@ -348,6 +353,9 @@ VertexResult deformed(uint i) {
     }
     VertexResult result;
     result.displacement = at + vertex.offset;
+    if (lifts && vertex.offset != real3(0.0)) {
+        result.displacement = bounded_by(result.displacement, path_length);
+    }
     result.steps = vertex.steps;
     result.samples = vertex.samples;
     result.flags = vertex.flags;
