@@ -18,6 +18,9 @@ class DeformSession {
     /// @throws InternalError on sizes that do not fit the input, DeviceError.
     virtual void update(const DeformMotion& motion) = 0;
 
+    /// Returns when the last update is done, without reading it back. @throws DeviceError.
+    virtual void wait() = 0;
+
     /// The last update's result, one entry per point. @throws DeviceError, InternalError before an update.
     virtual std::vector<PointResult> download() = 0;
 };

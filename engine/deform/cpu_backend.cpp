@@ -29,6 +29,8 @@ class CpuSession final : public DeformSession {
         });
     }
 
+    void wait() override {}
+
     std::vector<PointResult> download() override {
         if (!ready_) {
             throw InternalError("a session's result was asked for before its first update");
