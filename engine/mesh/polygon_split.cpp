@@ -154,9 +154,8 @@ void PolygonSplitter::clip_ears() {
     remaining_.resize(points_.size());
     std::iota(remaining_.begin(), remaining_.end(), 0U);
     size_t start = 1;
-    while (remaining_.size() > 3) {
+    for (size_t n = remaining_.size(); n > 3; --n) {
         const size_t found = choose_ear(start);
-        const size_t n = remaining_.size();
         // Self-crossing polygons and spent budgets have no ear: fan on, so that there are always n - 2
         // triangles.
         const size_t slot = found < n ? found : n - 1;
