@@ -1,0 +1,46 @@
+// The only file that contains stb_image_write.
+#include "engine/core/error.h"
+#include "engine/gpu/picture.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#define STBI_WRITE_NO_STDIO
+#include <stb_image_write.h>
+#pragma GCC diagnostic pop
+
+namespace anvil {
+
+void write_png(const std::string& path, const Picture& picture) {
+    std::string bytes;
+    const auto append = [](void* context, void* data, int size) {
+        static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<size_t>(size));
+    };
+    const auto width = static_cast<int>(picture.width);
+    const int encoded = stbi_write_png_to_func(append, &bytes, width, static_cast<int>(picture.height), 4,
+                                               picture.rgba.data(), 4 * width);
+    if (encoded == 0) {
+        throw WriteError("cannot encode the picture " + path);
+    }
+    const std::string temporary = path + ".part";
+    std::ofstream file(temporary, std::ios::binary);
+    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    file.close();
+    std::error_code fault;
+    if (file) {
+        std::filesystem::rename(temporary, path, fault);
+    }
+    if (!file || fault) {
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        throw WriteError("cannot write " + path);
+    }
+}
+
+} // namespace anvil

@@ -1,0 +1,115 @@
+#include "engine/gpu/render_target.h"
+
+#include "engine/gpu/volume_texture.h"
+
+namespace anvil {
+
+namespace {
+
+Attachment make_attachment(DeviceState& device, vk::Extent3D extent, vk::Format format,
+                           vk::SampleCountFlagBits samples, vk::ImageUsageFlags usage,
+                           vk::ImageAspectFlags aspect) {
+    Attachment result;
+    result.image = device.device.createImage({.imageType = vk::ImageType::e2D,
+                                              .format = format,
+                                              .extent = extent,
+                                              .mipLevels = 1,
+                                              .arrayLayers = 1,
+                                              .samples = samples,
+                                              .usage = usage});
+    const vk::MemoryRequirements needs = result.image.getMemoryRequirements();
+    result.memory = device.device.allocateMemory(
+        {.allocationSize = needs.size,
+         .memoryTypeIndex =
+             device.memory_type(needs.memoryTypeBits, {}, vk::MemoryPropertyFlagBits::eDeviceLocal)});
+    result.image.bindMemory(*result.memory, 0);
+    result.view = device.device.createImageView(
+        {.image = *result.image,
+         .viewType = vk::ImageViewType::e2D,
+         .format = format,
+         .subresourceRange = {.aspectMask = aspect, .levelCount = 1, .layerCount = 1}});
+    return result;
+}
+
+} // namespace
+
+vk::Format RenderTarget::depth_format(const DeviceState& device) {
+    const auto features = device.physical.getFormatProperties(vk::Format::eD32Sfloat).optimalTilingFeatures;
+    return features & vk::FormatFeatureFlagBits::eDepthStencilAttachment ? vk::Format::eD32Sfloat
+                                                                         : vk::Format::eX8D24UnormPack32;
+}
+
+vk::SampleCountFlagBits RenderTarget::sample_count(const DeviceState& device) {
+    const auto counts =
+        device.limits.framebufferColorSampleCounts & device.limits.framebufferDepthSampleCounts;
+    return counts & vk::SampleCountFlagBits::e4 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1;
+}
+
+RenderTarget::RenderTarget(DeviceState& device, uint32_t width, uint32_t height,
+                           vk::SampleCountFlagBits samples)
+    : width_(width), height_(height), multisampled_(samples != vk::SampleCountFlagBits::e1) {
+    const uint32_t limit = std::min({device.limits.maxImageDimension2D, device.limits.maxFramebufferWidth,
+                                     device.limits.maxFramebufferHeight});
+    if (width > limit || height > limit) {
+        throw DeviceError("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                          " is wanted, device \"" + device.info.name + "\" draws at most " +
+                          std::to_string(limit) + " a side; use a smaller --size");
+    }
+    guarded("taking memory for a picture", [&] {
+        const vk::Extent3D extent{width, height, 1};
+        const auto colour = vk::ImageUsageFlagBits::eColorAttachment;
+        const auto read = colour | vk::ImageUsageFlagBits::eTransferSrc;
+        colour_ = make_attachment(device, extent, colour_format, samples, multisampled_ ? colour : read,
+                                  vk::ImageAspectFlagBits::eColor);
+        if (multisampled_) {
+            resolved_ = make_attachment(device, extent, colour_format, vk::SampleCountFlagBits::e1, read,
+                                        vk::ImageAspectFlagBits::eColor);
+        }
+        depth_ =
+            make_attachment(device, extent, depth_format(device), samples,
+                            vk::ImageUsageFlagBits::eDepthStencilAttachment, vk::ImageAspectFlagBits::eDepth);
+    });
+}
+
+void RenderTarget::begin(const vk::raii::CommandBuffer& commands) const {
+    const auto undefined = vk::ImageLayout::eUndefined;
+    const auto drawn = vk::ImageLayout::eColorAttachmentOptimal;
+    change_layout(commands, *colour_.image, undefined, drawn);
+    if (multisampled_) {
+        change_layout(commands, *resolved_.image, undefined, drawn);
+    }
+    change_layout(commands, *depth_.image, undefined, vk::ImageLayout::eDepthAttachmentOptimal,
+                  vk::ImageAspectFlagBits::eDepth);
+    vk::RenderingAttachmentInfo colour{.imageView = *colour_.view,
+                                       .imageLayout = drawn,
+                                       .loadOp = vk::AttachmentLoadOp::eClear,
+                                       .storeOp = vk::AttachmentStoreOp::eStore};
+    if (multisampled_) {
+        colour.resolveMode = vk::ResolveModeFlagBits::eAverage;
+        colour.resolveImageView = *resolved_.view;
+        colour.resolveImageLayout = drawn;
+        colour.storeOp = vk::AttachmentStoreOp::eDontCare;
+    }
+    const vk::RenderingAttachmentInfo depth{.imageView = *depth_.view,
+                                            .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
+                                            .loadOp = vk::AttachmentLoadOp::eClear,
+                                            .storeOp = vk::AttachmentStoreOp::eDontCare,
+                                            .clearValue = vk::ClearDepthStencilValue{1.0F, 0}};
+    const vk::Rect2D area{{0, 0}, {width_, height_}};
+    commands.beginRendering({.renderArea = area,
+                             .layerCount = 1,
+                             .colorAttachmentCount = 1,
+                             .pColorAttachments = &colour,
+                             .pDepthAttachment = &depth});
+    commands.setViewport(
+        0, vk::Viewport{0, 0, static_cast<float>(width_), static_cast<float>(height_), 0.0F, 1.0F});
+    commands.setScissor(0, area);
+}
+
+void RenderTarget::end(const vk::raii::CommandBuffer& commands) const {
+    commands.endRendering();
+    change_layout(commands, colour(), vk::ImageLayout::eColorAttachmentOptimal,
+                  vk::ImageLayout::eTransferSrcOptimal);
+}
+
+} // namespace anvil

@@ -1,0 +1,44 @@
+// Where a picture is drawn before it is read back; internal to engine/gpu.
+#pragma once
+
+#include "engine/gpu/device_state.h"
+
+namespace anvil {
+
+/// An image with its memory and view.
+struct Attachment {
+    vk::raii::DeviceMemory memory{nullptr}; ///< outlives the image bound to it
+    vk::raii::Image image{nullptr};
+    vk::raii::ImageView view{nullptr};
+};
+
+/// Multisampled colour and depth and the single-sampled colour they resolve to, in the layouts that drawing
+/// starts from after begin().
+class RenderTarget {
+  public:
+    static constexpr vk::Format colour_format = vk::Format::eR8G8B8A8Srgb;
+
+    /// @throws DeviceError if the size exceeds the device's limits or memory is out.
+    RenderTarget(DeviceState& device, uint32_t width, uint32_t height, vk::SampleCountFlagBits samples);
+
+    /// Starts drawing over a cleared picture (dynamic rendering), viewport and scissor set.
+    void begin(const vk::raii::CommandBuffer& commands) const;
+    /// Ends drawing; the picture is ready to be copied from colour().
+    void end(const vk::raii::CommandBuffer& commands) const;
+    vk::Image colour() const { return *(multisampled_ ? resolved_ : colour_).image; }
+
+    /// Depth format that every device of this kind can draw to.
+    static vk::Format depth_format(const DeviceState& device);
+    /// Four samples where the device has them for colour and depth, else one.
+    static vk::SampleCountFlagBits sample_count(const DeviceState& device);
+
+  private:
+    uint32_t width_;
+    uint32_t height_;
+    bool multisampled_;
+    Attachment colour_;
+    Attachment resolved_;
+    Attachment depth_;
+};
+
+} // namespace anvil

@@ -1,0 +1,34 @@
+// A neutral studio, fixed to the camera: view space, linear colours.
+#ifndef ANVIL_STUDIO_GLSL
+#define ANVIL_STUDIO_GLSL
+
+/// From the base colour (0) over blue to orange (1): told apart by every kind of colour vision.
+vec3 tinted(vec3 base, float tint) {
+    float t = clamp(tint, 0.0, 1.0);
+    const vec3 blue = vec3(0.075, 0.235, 0.585);
+    const vec3 pale = vec3(0.60, 0.60, 0.58);
+    const vec3 orange = vec3(0.86, 0.30, 0.035);
+    vec3 ramp = t < 0.55 ? mix(blue, pale, smoothstep(0.12, 0.55, t)) : mix(pale, orange, smoothstep(0.55, 1.0, t));
+    return mix(base, ramp, 0.85 * smoothstep(0.0, 0.14, t));
+}
+
+vec3 studio_light(vec3 n, vec3 to_eye, vec3 base) {
+    const vec3 key = normalize(vec3(-0.65, 0.70, 0.50));
+    const vec3 fill = normalize(vec3(0.90, -0.10, 0.35));
+    const vec3 rim = normalize(vec3(0.45, 0.45, -0.77));
+    vec3 sky = mix(vec3(0.10, 0.085, 0.08), vec3(0.25, 0.28, 0.33), 0.5 + 0.5 * n.y);
+    float wrapped = max(0.0, (dot(n, key) + 0.12) / 1.12);
+    vec3 light = sky + vec3(1.02, 0.97, 0.88) * wrapped + vec3(0.10, 0.12, 0.16) * max(0.0, dot(n, fill));
+    // A little light under the skin: shadows of clay are warm, not grey.
+    light += 0.05 * vec3(1.0, 0.45, 0.25) * smoothstep(-0.55, 0.1, dot(n, key)) * (1.0 - wrapped);
+    vec3 colour = base * light;
+    vec3 half_way = normalize(key + to_eye);
+    float shine = 0.05 * pow(max(0.0, dot(n, half_way)), 28.0) + 0.05 * pow(max(0.0, dot(n, half_way)), 120.0);
+    float edge = pow(1.0 - max(0.0, dot(n, to_eye)), 3.5);
+    colour += shine * vec3(1.0, 0.98, 0.94);
+    colour += edge * (0.015 + 0.42 * max(0.0, dot(n, rim))) * vec3(0.80, 0.88, 1.0);
+    // Facing away from the eye a surface sees less of the studio.
+    return colour * mix(0.72, 1.0, smoothstep(0.0, 0.6, dot(n, to_eye)));
+}
+
+#endif
