@@ -78,30 +78,22 @@ void join_repeated_corners(const Mesh& mesh, UnionFind& fans) {
     }
 }
 
-void count_boundary_loops(const EdgeList& list, UnionFind& fans, MeshHealth& health) {
-    std::vector<uint32_t> ends;
-    for (size_t v = 0; v + 1 < list.begin.size(); ++v) {
+void count_boundary_loops(const EdgeList& list, MeshHealth& health) {
+    UnionFind loops(list.begin.size());
+    std::vector<bool> on_boundary(list.begin.size(), false);
+    for (uint32_t v = 0; v + 1 < list.begin.size(); ++v) {
         for (size_t i = list.begin[v]; i < list.begin[v + 1]; ++i) {
             const bool alone = (i == list.begin[v] || list.uses[i - 1].high != list.uses[i].high) &&
                                (i + 1 == list.begin[v + 1] || list.uses[i + 1].high != list.uses[i].high);
             if (alone) {
-                ends.push_back(fans.root(list.uses[i].low_corner));
-                ends.push_back(fans.root(list.uses[i].high_corner));
+                loops.join(v, list.uses[i].high);
+                on_boundary[v] = true;
+                on_boundary[list.uses[i].high] = true;
             }
         }
     }
-    std::vector<uint32_t> nodes = ends;
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    const auto number = [&](uint32_t fan) {
-        return static_cast<uint32_t>(std::lower_bound(nodes.begin(), nodes.end(), fan) - nodes.begin());
-    };
-    UnionFind loops(nodes.size());
-    for (size_t i = 0; i < ends.size(); i += 2) {
-        loops.join(number(ends[i]), number(ends[i + 1]));
-    }
-    for (uint32_t i = 0; i < nodes.size(); ++i) {
-        health.boundary_loops += loops.root(i) == i ? 1 : 0;
+    for (uint32_t v = 0; v < on_boundary.size(); ++v) {
+        health.boundary_loops += on_boundary[v] && loops.root(v) == v ? 1 : 0;
     }
 }
 
@@ -143,28 +135,34 @@ void count_components(const Mesh& mesh, MeshHealth& health) {
     health.components -= health.isolated_vertices.count;
 }
 
-/// Smallest angle in degrees, or -1 for a degenerate triangle.
-double smallest_angle(Vec3 a, Vec3 b, Vec3 c) {
-    std::array<double, 3> length = {glm::length(b - a), glm::length(c - b), glm::length(a - c)};
-    const double scale = unit_scale(*std::max_element(length.begin(), length.end()));
+/// Cotangent of the smallest angle (the larger, the thinner), or -1 for a degenerate triangle.
+double largest_cotangent(const Vec3& a, Vec3 b, Vec3 c) {
+    const Vec3 extent = glm::abs(b - a) + glm::abs(c - a);
+    const double scale = unit_scale(extent.x + extent.y + extent.z);
     b = scale * (b - a);
     c = scale * (c - a);
-    length = {glm::length(b), glm::length(c - b), glm::length(c)};
-    const double doubled_area = glm::length(glm::cross(b, c));
-    std::sort(length.begin(), length.end());
-    if (!(doubled_area > degenerate_height * length[2] * length[2])) {
+    std::array<double, 3> squared = {glm::dot(b, b), glm::dot(c - b, c - b), glm::dot(c, c)};
+    const Vec3 normal = glm::cross(b, c);
+    const double doubled_area = glm::length(normal);
+    std::sort(squared.begin(), squared.end());
+    if (!(doubled_area > degenerate_height * squared[2])) {
         return -1;
     }
-    const double cosine_part = (length[1] * length[1] + length[2] * length[2] - length[0] * length[0]) / 2;
-    return std::atan2(doubled_area, cosine_part) * 180 / std::numbers::pi;
+    return (squared[1] + squared[2] - squared[0]) / (2 * doubled_area);
 }
 
 void examine_triangles(const Mesh& mesh, MeshHealth& health) {
-    const double scale = unit_scale(health.diagonal);
-    const Vec3 centre = health.box.centre();
+    // An isolated vertex may be so far away that its box's centre would cost the triangles their digits.
+    Box used;
+    for (const uint32_t v : mesh.corners) {
+        used.include(mesh.positions[v]);
+    }
+    const double scale = unit_scale(used.diagonal());
+    const Vec3 centre = used.centre();
     double area = 0;
     double volume = 0;
-    double min_angle = 180;
+    const double needle = 1 / std::tan(needle_degrees * std::numbers::pi / 180);
+    double thinnest = 0;
     for (size_t i = 0; i < mesh.triangles.size(); ++i) {
         const Triangle& t = mesh.triangles[i];
         const Vec3 a = scale * (mesh.positions[t[0]] - centre);
@@ -173,15 +171,18 @@ void examine_triangles(const Mesh& mesh, MeshHealth& health) {
         const Vec3 normal = glm::cross(b - a, c - a);
         area += 0.5 * glm::length(normal);
         volume += glm::dot(a, normal) / 6;
-        const double angle = smallest_angle(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
-        if (angle < 0) {
+        const double cotangent =
+            largest_cotangent(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+        if (cotangent < 0) {
             health.degenerate_triangles.add(i);
             continue;
         }
-        min_angle = std::min(min_angle, angle);
-        health.needles += angle < needle_degrees ? 1 : 0;
+        thinnest = std::max(thinnest, cotangent);
+        health.needles += cotangent > needle ? 1 : 0;
     }
-    health.min_angle = health.degenerate_triangles.count < mesh.triangles.size() ? min_angle : 0;
+    if (health.degenerate_triangles.count < mesh.triangles.size()) {
+        health.min_angle = std::atan2(1, thinnest) * 180 / std::numbers::pi;
+    }
     health.area = area / scale / scale;
     if (health.closed) {
         health.volume = volume / scale / scale / scale;
@@ -250,7 +251,7 @@ MeshHealth examine(const Mesh& mesh) {
     UnionFind fans(mesh.corners.size());
     join_repeated_corners(mesh, fans);
     examine_edges(mesh, edges, fans, health);
-    count_boundary_loops(edges, fans, health);
+    count_boundary_loops(edges, health);
     examine_vertices(mesh, fans, health);
     count_components(mesh, health);
     examine_triangles(mesh, health);

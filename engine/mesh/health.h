@@ -29,8 +29,8 @@ struct MeshHealth {
     size_t edges = 0;
     size_t components =
         0; ///< polygons are connected where they share a vertex; isolated vertices not counted
-    size_t boundary_edges = 0; ///< used by one polygon
-    size_t boundary_loops = 0;
+    size_t boundary_edges = 0;    ///< used by one polygon
+    size_t boundary_loops = 0;    ///< holes that touch in a vertex count as one
     Finding non_manifold_edges;   ///< used by three polygons or more; first: the edge's lower vertex
     Finding bowtie_vertices;      ///< vertices whose polygons form several fans joined only there
     Finding inconsistent_edges;   ///< run through by two polygons in one direction; first: the lower vertex
