@@ -1,0 +1,51 @@
+// One edit on a device; internal to engine/gpu.
+#pragma once
+
+#include "engine/deform/backend.h"
+#include "engine/gpu/deform_pipeline.h"
+
+namespace anvil {
+
+class GpuSession final : public DeformSession {
+  public:
+    /// `chunk_bytes`: the most that a buffer of one chunk may take. @throws DeviceError, InternalError on
+    /// wrong sizes.
+    GpuSession(std::shared_ptr<DeformPipeline> pipeline, const DeformInput& input, uint64_t chunk_bytes);
+    ~GpuSession() override;
+
+    void update(const DeformMotion& motion) override;
+    void wait() override;
+    std::vector<PointResult> download() override;
+
+  private:
+    /// Consecutive points with buffers of their own, so that no binding exceeds a device's limit.
+    struct Chunk {
+        uint32_t count = 0;
+        Buffer points;
+        Buffer fields;
+        Buffer start_distances;
+        Buffer results; ///< `count` entries, then guards
+        std::vector<Resource> resources;
+    };
+
+    Chunk make_chunk(const DeformInput& input, size_t first, uint32_t count);
+    void bind_resources(Chunk& chunk);
+    void upload_targets(const std::vector<Vec3>& targets);
+    void check_motion(const DeformMotion& motion) const;
+
+    std::shared_ptr<DeformPipeline> pipeline_;
+    DeformInput header_; ///< the input without its per-point arrays
+    size_t point_count_ = 0;
+    std::vector<std::shared_ptr<const VolumeTexture>> volumes_;
+    Buffer shapes_;
+    Buffer segments_;
+    Buffer occluders_;
+    Buffer nodes_;
+    Buffer targets_;
+    std::vector<glm::vec3> narrow_targets_;
+    std::vector<Chunk> chunks_;
+    Commands commands_;
+    bool ready_ = false;
+};
+
+} // namespace anvil
