@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/types.h"
+#include "engine/edit/distance_method.h"
 #include "engine/mesh/mesh.h"
 #include "engine/mesh/surface_point.h"
 
@@ -10,9 +11,6 @@
 #include <vector>
 
 namespace anvil {
-
-/// How geodesic distances are found. `automatic` leaves the choice to the solver.
-enum class DistanceMethod { automatic, approximate, exact };
 
 /// Distances (world units, >= 0) of the vertices that were reached, in order of arrival, each vertex once;
 /// every other vertex is infinitely far.
