@@ -1,6 +1,7 @@
 #include "engine/core/error.h"
 #include "engine/core/read_file.h"
 #include "engine/mesh/health.h"
+#include "engine/mesh/mesh_format.h"
 #include "engine/mesh/mesh_reader.h"
 #include "engine/mesh/mesh_source.h"
 #include "engine/mesh/precision.h"
@@ -28,28 +29,18 @@ void Skipped::report(const MeshSource& source, const std::string& what, const ch
 
 namespace {
 
-using Reader = Mesh (*)(const MeshSource&);
-
-Reader reader_for(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    for (char& c : extension) {
-        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+Mesh read_format(MeshFormat format, const MeshSource& source) {
+    switch (format) {
+    case MeshFormat::obj:
+        return read_obj(source);
+    case MeshFormat::ply:
+        return read_ply(source);
+    case MeshFormat::stl:
+        return read_stl(source);
+    case MeshFormat::off:
+        break;
     }
-    if (extension == ".obj") {
-        return read_obj;
-    }
-    if (extension == ".ply") {
-        return read_ply;
-    }
-    if (extension == ".stl") {
-        return read_stl;
-    }
-    if (extension == ".off") {
-        return read_off;
-    }
-    throw InputError(path.string() + ": " +
-                     (extension.empty() ? "no extension" : "unknown extension " + extension) +
-                     "; mesh files end with .obj, .ply, .stl or .off");
+    return read_off(source);
 }
 
 /// Messages are printed: no control characters of a damaged file may reach the terminal.
@@ -61,11 +52,11 @@ void make_printable(std::string& message) {
     }
 }
 
-Mesh read_checked(const MeshSource& source, Reader reader) {
+Mesh read_checked(const MeshSource& source, MeshFormat format) {
     if (source.text.empty()) {
         source.fail("the file is empty", "export the mesh again");
     }
-    Mesh mesh = reader(source);
+    Mesh mesh = read_format(format, source);
     if (mesh.vertex_count() == 0) {
         source.fail("the file has no vertex",
                     "check that it is a mesh file of the kind that its extension says");
@@ -80,13 +71,13 @@ Mesh read_checked(const MeshSource& source, Reader reader) {
 } // namespace
 
 Mesh read_mesh(const std::filesystem::path& path, Log& log) {
-    const Reader reader = reader_for(path);
+    const MeshFormat format = mesh_format(path);
     const std::string text = read_file(path);
     const MeshSource source{path.string(), text, log};
     const size_t known = log.warnings.size();
     Mesh mesh;
     try {
-        mesh = read_checked(source, reader);
+        mesh = read_checked(source, format);
     } catch (const InputError& error) {
         std::string message = error.what();
         make_printable(message);

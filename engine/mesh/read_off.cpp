@@ -1,10 +1,9 @@
+#include "engine/mesh/mesh_output.h"
 #include "engine/mesh/text_scanner.h"
 
 namespace anvil {
 
 namespace {
-
-constexpr std::array<const char*, 4> colour_names = {"red", "green", "blue", "alpha"};
 
 struct OffHeader {
     bool texture = false;
