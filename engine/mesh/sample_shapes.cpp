@@ -1,6 +1,7 @@
 #include "engine/mesh/sample_shapes.h"
 
 #include "engine/core/error.h"
+#include "engine/mesh/sample_bodies.h"
 #include "engine/mesh/sample_primitives.h"
 
 namespace anvil {
@@ -13,9 +14,11 @@ struct Shape {
     Mesh (*make)(size_t vertices);
 };
 
-constexpr std::array<Shape, 6> shapes{{
+constexpr std::array<Shape, 8> shapes{{
+    {"bust", 500, sample::bust},
     {"cube", 8, sample::cube},
     {"cylinder", 8, sample::cylinder},
+    {"hand", 500, sample::hand},
     {"icosphere", 4, sample::sphere},
     {"plane", 4, sample::plane},
     {"sphere", 4, sample::sphere},

@@ -27,4 +27,8 @@ const std::vector<std::string>& sample_shape_names();
 /// @throws InputError for an unknown shape, too few vertices, or more than max_sample_vertices.
 Mesh make_sample(const std::string& shape, size_t vertices);
 
+/// The outermost points of the sample hand's thumb, index, middle, ring and little finger, on its implicit
+/// surface (the mesh is off by its own coarseness).
+std::vector<Vec3> hand_finger_tips();
+
 } // namespace anvil
