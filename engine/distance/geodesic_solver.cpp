@@ -1,8 +1,8 @@
 #include "engine/core/error.h"
 #include "engine/distance/distance.h"
+#include "engine/distance/front_seeds.h"
 #include "engine/distance/source_seeds.h"
 #include "engine/distance/triangle_graph.h"
-#include "engine/distance/virtual_source_marching.h"
 
 #include <mutex>
 
@@ -23,32 +23,38 @@ TriangleGraph checked_graph(const Mesh& mesh, std::span<const Vec3> positions) {
     return make_triangle_graph(mesh.triangles, positions);
 }
 
+FanTable flipped_table(TriangleGraph graph) {
+    const std::vector<DirectionOrigin> origins = flip_to_delaunay(graph);
+    return make_fan_table(graph, origins);
+}
+
 } // namespace
 
 /// Workspaces wait in a pool: as many exist as calls ever ran at once.
 struct GeodesicSolver::State {
-    explicit State(TriangleGraph prepared) : graph(std::move(prepared)) {}
+    explicit State(TriangleGraph prepared) : graph(std::move(prepared)), table(flipped_table(graph)) {}
 
-    std::unique_ptr<VirtualSourceMarching> borrow() {
+    std::unique_ptr<VertexFronts> borrow() {
         {
             const std::scoped_lock lock(mutex);
             if (!idle.empty()) {
-                std::unique_ptr<VirtualSourceMarching> kept = std::move(idle.back());
+                std::unique_ptr<VertexFronts> kept = std::move(idle.back());
                 idle.pop_back();
                 return kept;
             }
         }
-        return std::make_unique<VirtualSourceMarching>(graph);
+        return std::make_unique<VertexFronts>(table);
     }
 
-    void give_back(std::unique_ptr<VirtualSourceMarching> workspace) {
+    void give_back(std::unique_ptr<VertexFronts> workspace) {
         const std::scoped_lock lock(mutex);
         idle.push_back(std::move(workspace));
     }
 
-    TriangleGraph graph;
+    TriangleGraph graph; ///< as the mesh has it: sources refer to its triangles
+    FanTable table;
     std::mutex mutex;
-    std::vector<std::unique_ptr<VirtualSourceMarching>> idle;
+    std::vector<std::unique_ptr<VertexFronts>> idle;
 };
 
 GeodesicSolver::GeodesicSolver(const Mesh& mesh, std::span<const Vec3> positions)
@@ -67,13 +73,14 @@ DistanceField GeodesicSolver::solve(std::span<const SurfacePoint> sources, doubl
     }
     const std::vector<Seed> seeds = seed_sources(state_->graph, sources);
     const double bound = radius / state_->graph.unit;
-    std::unique_ptr<VirtualSourceMarching> marching = state_->borrow();
-    marching->run(seeds, bound);
+    std::unique_ptr<VertexFronts> marching = state_->borrow();
+    marching->run(front_seeds(state_->graph, state_->table, seeds), bound);
     DistanceField field;
     for (const uint32_t vertex : marching->reached()) {
-        if (marching->distance(vertex) <= bound) {
+        const double distance = marching->distance(vertex);
+        if (distance <= bound) {
             field.vertices.push_back(vertex);
-            field.distances.push_back(marching->distance(vertex) * state_->graph.unit);
+            field.distances.push_back(distance * state_->graph.unit);
         }
     }
     state_->give_back(std::move(marching));

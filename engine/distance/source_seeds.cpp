@@ -32,25 +32,6 @@ void check(const TriangleGraph& graph, const SurfacePoint& point, size_t index) 
     }
 }
 
-/// Straight distances from a point of the triangle that starts at side `base` to its three corners; the point
-/// is given by its weights at the base's end and at the apex.
-struct CornerDistances {
-    double start, end, apex;
-};
-CornerDistances corner_distances(const TriangleGraph& graph, uint32_t base, double weight_end,
-                                 double weight_apex) {
-    const double length = graph.side_length[base];
-    const double left = graph.side_length[TriangleGraph::previous(base)];
-    const double right = graph.side_length[TriangleGraph::next(base)];
-    if (length == 0) {
-        return {weight_apex * left, weight_apex * left, (1 - weight_apex) * left};
-    }
-    const PlanePoint apex = apex_over(length, left, right);
-    const double x = weight_end * length + weight_apex * apex.x;
-    const double y = weight_apex * apex.y;
-    return {std::hypot(x, y), std::hypot(length - x, y), std::hypot(apex.x - x, apex.y - y)};
-}
-
 class Seeder {
   public:
     Seeder(const TriangleGraph& graph, uint32_t label, std::vector<Seed>& seeds)
@@ -58,7 +39,7 @@ class Seeder {
 
     void add(const SurfacePoint& point) {
         if (point.triangle == no_index) {
-            seeds_.push_back({point.vertex, label_, 0});
+            seeds_.push_back({point.vertex, label_, 0, no_index, 0});
             return;
         }
         const Vec3 weights = glm::max(point.barycentric, Vec3(0)) /
@@ -67,7 +48,7 @@ class Seeder {
         const uint32_t first = 3 * point.triangle;
         for (int k = 0; k < 3; ++k) {
             if (weights[k] >= 1 - snap) {
-                seeds_.push_back({graph_.corner_vertex[first + k], label_, 0});
+                seeds_.push_back({graph_.corner_vertex[first + k], label_, 0, no_index, 0});
                 return;
             }
         }
@@ -81,11 +62,27 @@ class Seeder {
     }
 
   private:
+    /// The point has weights (1 - weight_end - weight_apex, weight_end, weight_apex) at base's start, its end
+    /// and the apex.
     void add_in_triangle(uint32_t base, double weight_end, double weight_apex) {
-        const CornerDistances d = corner_distances(graph_, base, weight_end, weight_apex);
-        seeds_.push_back({graph_.corner_vertex[base], label_, d.start});
-        seeds_.push_back({graph_.corner_vertex[TriangleGraph::next(base)], label_, d.end});
-        seeds_.push_back({graph_.corner_vertex[TriangleGraph::previous(base)], label_, d.apex});
+        const uint32_t second = TriangleGraph::next(base), third = TriangleGraph::previous(base);
+        const double length = graph_.side_length[base];
+        const double left = graph_.side_length[third];
+        PlanePoint apex{left, 0};
+        if (length > 0) {
+            apex = apex_over(length, left, graph_.side_length[second]);
+        }
+        const PlanePoint point{weight_end * length + weight_apex * apex.x, weight_apex * apex.y};
+        const std::array<PlanePoint, 3> corners = {{{0, 0}, {length, 0}, apex}};
+        for (uint32_t k = 0; k < 3; ++k) {
+            const uint32_t side = k == 0 ? base : k == 1 ? second : third;
+            const PlanePoint& here = corners[k];
+            const PlanePoint& next = corners[(k + 1) % 3];
+            const double ax = next.x - here.x, ay = next.y - here.y;
+            const double bx = point.x - here.x, by = point.y - here.y;
+            const double angle = std::atan2(std::max(0.0, ax * by - ay * bx), ax * bx + ay * by);
+            seeds_.push_back({graph_.corner_vertex[side], label_, std::hypot(bx, by), side, angle});
+        }
     }
 
     void add_edge_point(uint32_t side, double weight_end) {

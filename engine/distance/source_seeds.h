@@ -11,6 +11,9 @@ struct Seed {
     uint32_t vertex = 0;
     uint32_t label = 0;
     double distance = 0;
+    uint32_t side =
+        no_index;     ///< leaves the vertex, in a triangle that holds the source; none: it is the vertex
+    double angle = 0; ///< from the side to the source, within that triangle
 };
 
 /// Seeds of all sources, label = index into `sources`: the vertex itself, or the corners of all triangles

@@ -28,6 +28,59 @@ void measure_sides(TriangleGraph& graph, std::span<const Vec3> positions) {
     }
 }
 
+/// One end of an edge: the other vertex, and the side.
+struct EdgeSide {
+    uint32_t other, side;
+};
+
+bool has_corner_twice(const TriangleGraph& graph, uint32_t side) {
+    const uint32_t first = side - side % 3;
+    const uint32_t a = graph.corner_vertex[first], b = graph.corner_vertex[first + 1],
+                   c = graph.corner_vertex[first + 2];
+    return a == b || b == c || c == a;
+}
+
+/// Joins into rings the sides that lead from `vertex` to higher vertices, so that each edge is done once.
+void link_edges_of(TriangleGraph& graph, uint32_t vertex, std::vector<EdgeSide>& ends) {
+    ends.clear();
+    for (const uint32_t side : graph.sides_leaving(vertex)) {
+        if (has_corner_twice(graph, side)) {
+            continue;
+        }
+        const uint32_t arriving = TriangleGraph::previous(side);
+        if (graph.to(side) > vertex) {
+            ends.push_back({graph.to(side), side});
+        }
+        if (graph.from(arriving) > vertex) {
+            ends.push_back({graph.from(arriving), arriving});
+        }
+    }
+    std::sort(ends.begin(), ends.end(), [](const EdgeSide& a, const EdgeSide& b) {
+        return a.other != b.other ? a.other < b.other : a.side < b.side;
+    });
+    for (size_t begin = 0, end = 0; begin < ends.size(); begin = end) {
+        while (end < ends.size() && ends[end].other == ends[begin].other) {
+            ++end;
+        }
+        for (size_t i = begin; i < end && end - begin > 1; ++i) {
+            const uint32_t here = ends[i].side, there = ends[i + 1 < end ? i + 1 : begin].side;
+            graph.across[here] = 2 * there + (graph.from(here) == graph.from(there) ? 1 : 0);
+        }
+    }
+}
+
+void link_edges(TriangleGraph& graph) {
+    graph.across.assign(graph.corner_vertex.size(), no_index);
+    parallel_for(graph.vertex_count(), 1 << 12, [&](size_t begin, size_t end) {
+        std::vector<EdgeSide> ends;
+        for (size_t v = begin; v < end; ++v) {
+            link_edges_of(graph, static_cast<uint32_t>(v), ends);
+        }
+    });
+}
+
+} // namespace
+
 void link_vertices(TriangleGraph& graph, size_t vertex_count) {
     std::vector<uint32_t>& begin = graph.leaving_begin;
     begin.assign(vertex_count + 1, 0);
@@ -44,8 +97,6 @@ void link_vertices(TriangleGraph& graph, size_t vertex_count) {
     }
 }
 
-} // namespace
-
 TriangleGraph make_triangle_graph(std::span<const Triangle> triangles, std::span<const Vec3> positions) {
     TriangleGraph graph;
     Box box;
@@ -59,6 +110,7 @@ TriangleGraph make_triangle_graph(std::span<const Triangle> triangles, std::span
     }
     measure_sides(graph, positions);
     link_vertices(graph, positions.size());
+    link_edges(graph);
     return graph;
 }
 

@@ -16,18 +16,40 @@ struct TriangleGraph {
     double unit = 1;                     ///< world length of 1
     std::vector<uint32_t> corner_vertex; ///< 3 per triangle
     std::vector<double> side_length;     ///< 3 per triangle
+    /// The next side of the same edge, in a ring over all of them: 2 * side, + 1 if it runs the same way;
+    /// no_index where no other side shares the edge. Triangles with a corner twice are not linked.
+    std::vector<uint32_t> across;
     std::vector<uint32_t> leaving_begin; ///< vertex_count() + 1
     std::vector<uint32_t> leaving;       ///< the sides that leave each vertex
     double longest_side = 0;
+
+    /// What twin() gives in place of a side.
+    static constexpr uint32_t boundary = no_index;
+    static constexpr uint32_t tangled = no_index - 1;
 
     size_t vertex_count() const { return leaving_begin.size() - 1; }
     size_t triangle_count() const { return corner_vertex.size() / 3; }
     static uint32_t next(uint32_t side) { return side % 3 == 2 ? side - 2 : side + 1; }
     static uint32_t previous(uint32_t side) { return side % 3 == 0 ? side + 2 : side - 1; }
+    /// The side that runs the other way along the same edge, where just two triangles of like orientation
+    /// meet; `boundary` where the triangle is alone, `tangled` where it is any other case.
+    uint32_t twin(uint32_t side) const {
+        const uint32_t link = across[side];
+        if (link == no_index) {
+            return boundary;
+        }
+        return (link & 1) == 0 && across[link >> 1] == 2 * side ? link >> 1 : tangled;
+    }
+    uint32_t from(uint32_t side) const { return corner_vertex[side]; }
+    uint32_t to(uint32_t side) const { return corner_vertex[next(side)]; }
+    uint32_t apex(uint32_t side) const { return corner_vertex[previous(side)]; }
     std::span<const uint32_t> sides_leaving(uint32_t vertex) const {
         return {leaving.data() + leaving_begin[vertex], leaving.data() + leaving_begin[vertex + 1]};
     }
 };
+
+/// Lists `leaving` anew from corner_vertex.
+void link_vertices(TriangleGraph& graph, size_t vertex_count);
 
 /// Every index of `triangles` is below positions.size(); positions are finite.
 TriangleGraph make_triangle_graph(std::span<const Triangle> triangles, std::span<const Vec3> positions);

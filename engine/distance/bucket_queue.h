@@ -1,0 +1,75 @@
+// A front ordered roughly by distance: no heap, no memory taken once it has grown.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <vector>
+
+namespace anvil {
+
+/// Items in buckets of equal width over a key that grows; within a bucket first in, first out. Keys that lie
+/// behind the bucket being emptied go into it.
+template <typename Item>
+class BucketQueue {
+  public:
+    /// `reach`: how far beyond the bucket in hand a key may lie. The ring has a bounded number of buckets, so
+    /// a very small width is made larger.
+    BucketQueue(double width, double reach) {
+        width_ = std::max(width, reach / most_buckets);
+        if (!(width_ > 0)) {
+            width_ = 1;
+        }
+        const auto wanted = static_cast<size_t>(reach / width_) + 4;
+        buckets_.resize(std::bit_ceil(wanted));
+    }
+
+    void clear() {
+        // Emptied buckets are cleared as they are left, so only the one in hand can hold anything when none
+        // live.
+        buckets_[current_ & (buckets_.size() - 1)].clear();
+        for (size_t i = 0; live_ > 0 && i < buckets_.size(); ++i) {
+            buckets_[i].clear();
+        }
+        live_ = 0;
+        current_ = 0;
+        place_ = 0;
+    }
+
+    size_t bucket_of(double key) const {
+        return key < 1e18 * width_ ? static_cast<size_t>(key / width_) : static_cast<size_t>(1e18);
+    }
+    size_t current() const { return current_; }
+    double width() const { return width_; }
+    bool empty() const { return live_ == 0; }
+
+    void push(double key, const Item& item) {
+        const size_t bucket = std::clamp(bucket_of(key), current_, current_ + buckets_.size() - 1);
+        buckets_[bucket & (buckets_.size() - 1)].push_back(item);
+        ++live_;
+    }
+
+    /// Not empty.
+    Item pop() {
+        while (true) {
+            std::vector<Item>& bucket = buckets_[current_ & (buckets_.size() - 1)];
+            if (place_ < bucket.size()) {
+                --live_;
+                return bucket[place_++];
+            }
+            bucket.clear();
+            place_ = 0;
+            ++current_;
+        }
+    }
+
+  private:
+    static constexpr size_t most_buckets = 1 << 16;
+    double width_ = 1;
+    std::vector<std::vector<Item>> buckets_;
+    size_t current_ = 0;
+    size_t place_ = 0;
+    size_t live_ = 0;
+};
+
+} // namespace anvil

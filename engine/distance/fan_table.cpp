@@ -1,0 +1,239 @@
+#include "engine/distance/fan_table.h"
+
+#include "engine/core/parallel_for.h"
+#include "engine/distance/unfold.h"
+
+#include <numbers>
+
+namespace anvil {
+namespace {
+
+// A path along an edge turns fully at a vertex whose angle exceeds 2 pi by this (radians); chosen by trial.
+constexpr double full_bend = 0.3;
+
+struct Corner {
+    double cosine = 1, sine = 0;
+};
+
+Corner corner_at(const TriangleGraph& graph, uint32_t side) {
+    const double base = graph.side_length[side];
+    const double left = graph.side_length[TriangleGraph::previous(side)];
+    if (!(base > 0 && left > 0)) {
+        return {};
+    }
+    const PlanePoint apex = apex_over(base, left, graph.side_length[TriangleGraph::next(side)]);
+    const double length = std::hypot(apex.x, apex.y);
+    return {apex.x / length, apex.y / length};
+}
+
+class Builder {
+  public:
+    Builder(const TriangleGraph& graph, std::span<const DirectionOrigin> origins)
+        : graph_(graph), origins_(origins), shapes_(graph.vertex_count()),
+          corners_(graph.corner_vertex.size()), directions_(graph.corner_vertex.size()) {}
+
+    FanTable build() {
+        const size_t count = graph_.vertex_count();
+        table_.fans.resize(count + 1);
+        parallel_for(graph_.corner_vertex.size(), 1 << 14, [&](size_t begin, size_t end) {
+            for (size_t side = begin; side < end; ++side) {
+                corners_[side] = corner_at(graph_, static_cast<uint32_t>(side));
+            }
+        });
+        parallel_for(count, 1 << 12, [&](size_t begin, size_t end) {
+            for (size_t v = begin; v < end; ++v) {
+                measure(static_cast<uint32_t>(v));
+            }
+        });
+        uint32_t place = 0;
+        for (size_t v = 0; v < count; ++v) {
+            table_.fans[v].first_spoke = place;
+            place += spoke_count(static_cast<uint32_t>(v));
+        }
+        table_.fans[count].first_spoke = place;
+        table_.spokes.resize(place);
+        parallel_for(count, 1 << 12, [&](size_t begin, size_t end) {
+            for (size_t v = begin; v < end; ++v) {
+                fill(static_cast<uint32_t>(v));
+            }
+        });
+        sum_lengths();
+        return std::move(table_);
+    }
+
+  private:
+    uint32_t spoke_count(uint32_t vertex) const {
+        const auto corners = static_cast<uint32_t>(graph_.sides_leaving(vertex).size());
+        switch (shapes_[vertex].kind) {
+        case FanShape::Kind::closed:
+            return corners;
+        case FanShape::Kind::open:
+            return corners + 1;
+        default:
+            return 2 * corners;
+        }
+    }
+
+    double angle(uint32_t side) const { return std::atan2(corners_[side].sine, corners_[side].cosine); }
+
+    void measure(uint32_t vertex) {
+        const FanShape shape = fan_shape(graph_, vertex, origins_[vertex].side);
+        shapes_[vertex] = shape;
+        if (shape.kind == FanShape::Kind::tangled) {
+            return;
+        }
+        const bool closed = shape.kind == FanShape::Kind::closed;
+        double direction = closed ? origins_[vertex].direction : 0;
+        const double start = direction;
+        uint32_t side = shape.first;
+        do {
+            directions_[side] = static_cast<float>(direction);
+            direction += angle(side);
+            side = graph_.twin(TriangleGraph::previous(side));
+        } while (side < TriangleGraph::tangled && side != shape.first);
+        const double total = direction - start;
+        Fan& fan = table_.fans[vertex];
+        fan.total = closed ? static_cast<float>(total) : Fan::open;
+        fan.bend =
+            closed ? static_cast<float>(std::clamp((total - 2 * std::numbers::pi) / full_bend, 0.0, 1.0)) : 1;
+        if (closed) {
+            wrap(shape.first, fan.total);
+        }
+    }
+
+    /// Brings the directions of a closed fan into [0, total).
+    void wrap(uint32_t first, float total) {
+        uint32_t side = first;
+        do {
+            float& direction = directions_[side];
+            direction -= total * std::floor(direction / total);
+            direction = direction < total ? direction : 0;
+            side = graph_.twin(TriangleGraph::previous(side));
+        } while (side != first);
+    }
+
+    /// Direction, at the vertex that `side` arrives at, of the way back along it.
+    float back_direction(uint32_t side) const {
+        const uint32_t twin = graph_.twin(side);
+        if (twin < TriangleGraph::tangled) {
+            return directions_[twin];
+        }
+        const uint32_t next = TriangleGraph::next(side);
+        return static_cast<float>(directions_[next] + angle(next));
+    }
+
+    Spoke leaving_spoke(uint32_t side) const {
+        return {graph_.to(side),
+                static_cast<float>(graph_.side_length[side]),
+                directions_[side],
+                back_direction(side),
+                static_cast<float>(corners_[side].cosine),
+                static_cast<float>(corners_[side].sine)};
+    }
+
+    /// The spoke at the counterclockwise end of the corner that `side` leaves.
+    Spoke end_spoke(uint32_t side) const {
+        const uint32_t arriving = TriangleGraph::previous(side);
+        return {graph_.from(arriving),
+                static_cast<float>(graph_.side_length[arriving]),
+                static_cast<float>(directions_[side] + angle(side)),
+                directions_[arriving],
+                1,
+                Spoke::no_corner};
+    }
+
+    void fill(uint32_t vertex) {
+        Spoke* spoke = table_.spokes.data() + table_.fans[vertex].first_spoke;
+        const FanShape& shape = shapes_[vertex];
+        if (shape.kind == FanShape::Kind::tangled) {
+            for (const uint32_t side : graph_.sides_leaving(vertex)) {
+                *spoke++ = leaving_spoke(side);
+                *spoke++ = end_spoke(side);
+            }
+            return;
+        }
+        uint32_t side = shape.first;
+        while (true) {
+            *spoke++ = leaving_spoke(side);
+            const uint32_t next = graph_.twin(TriangleGraph::previous(side));
+            if (next == TriangleGraph::boundary) {
+                *spoke = end_spoke(side);
+                return;
+            }
+            if (next == shape.first) {
+                return;
+            }
+            side = next;
+        }
+    }
+
+    void sum_lengths() {
+        double sum = 0;
+        for (const double length : graph_.side_length) {
+            sum += length;
+            table_.longest = std::max(table_.longest, length);
+        }
+        table_.mean_length =
+            graph_.side_length.empty() ? 0 : sum / static_cast<double>(graph_.side_length.size());
+    }
+
+    const TriangleGraph& graph_;
+    std::span<const DirectionOrigin> origins_;
+    std::vector<FanShape> shapes_;
+    std::vector<Corner> corners_;
+    std::vector<float> directions_;
+    FanTable table_;
+};
+
+} // namespace
+
+FanTable make_fan_table(const TriangleGraph& graph, std::span<const DirectionOrigin> origins) {
+    return Builder(graph, origins).build();
+}
+
+double corner_angle(const TriangleGraph& graph, uint32_t side) {
+    const Corner corner = corner_at(graph, side);
+    return std::atan2(corner.sine, corner.cosine);
+}
+
+FanShape fan_shape(const TriangleGraph& graph, uint32_t vertex, uint32_t wished_first) {
+    const size_t count = graph.sides_leaving(vertex).size();
+    if (wished_first == no_index) {
+        return {};
+    }
+    uint32_t first = wished_first;
+    size_t turns = 0;
+    bool open = false;
+    // Clockwise, to the start of an open fan or once around.
+    for (; turns <= count; ++turns) {
+        const uint32_t twin = graph.twin(first);
+        if (twin == TriangleGraph::tangled) {
+            return {};
+        }
+        if (twin == TriangleGraph::boundary) {
+            open = true;
+            break;
+        }
+        first = TriangleGraph::next(twin);
+        if (first == wished_first) {
+            ++turns;
+            break;
+        }
+    }
+    if (!open) {
+        return turns == count ? FanShape{FanShape::Kind::closed, wished_first} : FanShape{};
+    }
+    size_t corners = 1;
+    for (uint32_t side = first; corners <= count; ++corners) {
+        side = graph.twin(TriangleGraph::previous(side));
+        if (side == TriangleGraph::boundary) {
+            return corners == count ? FanShape{FanShape::Kind::open, first} : FanShape{};
+        }
+        if (side == TriangleGraph::tangled) {
+            return {};
+        }
+    }
+    return {};
+}
+
+} // namespace anvil

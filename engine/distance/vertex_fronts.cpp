@@ -1,0 +1,258 @@
+#include "engine/distance/vertex_fronts.h"
+
+#include "engine/distance/angle_functions.h"
+
+namespace anvil {
+namespace {
+
+// Chosen by trial on meshes of all kinds; errors change little around them.
+constexpr double bucket_width = 0.1; // mean edges
+constexpr float least_gain = 1e-5F;  // relative; less is rounding and not worth another march
+constexpr float provisional_slack = 1e-6F;
+constexpr float overlap_first =
+    0.15F;                           // mismatch over edge length where two overlapping fronts start to part,
+constexpr float overlap_last = 0.5F; // and beyond which they have nothing to do with each other
+constexpr float overlap_range = 0.45F; // length of that transition
+constexpr float gap_last = 3;          // the same for fronts with a gap between them (saddles, shadows)
+constexpr float too_late = 0.6F; // of the corner's sides: how far behind the front is still worth a look
+// A path along an edge waits by this part of the edge: the front that really passes there points better.
+constexpr float edge_delay = 0.35F;
+constexpr float curved_front = 3; // edges: nearer to its centre a front may come from beyond an acute corner
+
+constexpr float pi = 3.14159265F;
+constexpr float half_turn = 3.1415936F; // a little more than pi: rays along an edge count
+constexpr float shadow_turn = 3.14159F; // a little less than pi
+constexpr float boundary_bend = 0.3F;
+constexpr float angle_slack = 1e-6F;
+
+constexpr uint32_t settled_bit = 1;
+constexpr uint32_t provisional_bit = 2; // came along an edge that may just graze the true way
+constexpr uint32_t march_step = 4;
+constexpr uint32_t run_step = 128; // up to 31 marches a vertex and run
+constexpr float never = 1e30F;
+
+struct Centre {
+    float x, y; // y >= 0: below the edge, on the side away from the triangle
+};
+
+float distance_between(float dx, float dy) {
+    return std::sqrt(dx * dx + dy * dy);
+}
+
+/// Where the ray from the centre below the edge to the corner (cx, cy) crosses it.
+float crossing(const Centre& s, float cx, float cy) {
+    return (s.x * cy + cx * s.y) / (s.y + cy);
+}
+
+float clamp_unit(float t) {
+    return std::min(std::max(t, 0.0F), 1.0F);
+}
+
+} // namespace
+
+/// The corner of a triangle opposite to an edge A-B, in the frame A = (0,0), B = (length,0).
+struct VertexFronts::Opposite {
+    uint32_t other, corner;
+    float length, x, y;
+    float out;         ///< direction of AB at A
+    float home;        ///< direction of BA at B
+    float corner_back; ///< direction of CA at the corner
+    float turn;        ///< 1 if the triangle lies counterclockwise of AB at A, else -1
+};
+
+VertexFronts::VertexFronts(const FanTable& table)
+    : table_(table), fronts_(table.fans.size()),
+      queue_(bucket_width * table.mean_length, 2 * table.longest + table.mean_length) {
+    for (size_t v = 0; v < fronts_.size(); ++v) {
+        fronts_[v].total = table.fans[v].total;
+        fronts_[v].bend = table.fans[v].bend;
+        fronts_[v].first_spoke = table.fans[v].first_spoke;
+    }
+    slack_ = static_cast<float>(table.mean_length);
+}
+
+void VertexFronts::accept(uint32_t vertex, float distance, float offset, float direction, uint32_t label,
+                          float delay) {
+    Front& front = fronts_[vertex];
+    if (!is_reached(front)) {
+        reached_.push_back(vertex);
+        front.stamp = run_stamp_;
+    } else if (front.stamp + 2 * march_step >= run_stamp_ + run_step) {
+        return;
+    }
+    front.stamp &= ~(settled_bit | provisional_bit);
+    front.distance = distance;
+    front.offset = front.bend < 0 ? distance : offset;
+    front.label = label;
+    if (direction >= front.total) {
+        direction -= front.total;
+    }
+    if (direction < 0 && front.total < Fan::open) {
+        direction += front.total;
+    }
+    front.back = direction;
+    if (queue_.bucket_of(distance + delay) <= last_bucket_) {
+        queue_.push(distance + delay, {distance, vertex});
+    }
+}
+
+void VertexFronts::update(uint32_t from, const Opposite& o) {
+    const Front& a = fronts_[from];
+    const Front& b = fronts_[o.other];
+    if (!is_reached(b) || !is_settled(b)) {
+        return;
+    }
+    const Front& c = fronts_[o.corner];
+    const float known = is_reached(c) ? c.distance : never;
+    const float cx = o.x, cy = o.y, length = o.length;
+    const float a_radius = a.distance - a.offset, b_radius = b.distance - b.offset;
+    if (known <= a.distance) {
+        const bool acute = cx * (cx - length) + cy * cy > 0;
+        if (known < a.distance - too_late * (std::fabs(cx) + cy) ||
+            (acute && is_settled(c) && a_radius > curved_front * length)) {
+            return;
+        }
+    }
+    bool a_sees = true, b_sees = true;
+    Centre from_a{0, 0}, from_b{length, 0};
+    if (a_radius > 0) {
+        float angle = o.turn * (o.out - a.back);
+        angle += angle < -angle_slack ? a.total : 0;
+        a_sees = angle <= half_turn;
+        const SineCosine t = half_turn_sine_cosine(std::min(angle, pi));
+        from_a = {a_radius * t.cosine, std::max(0.0F, a_radius * t.sine)};
+    }
+    if (b_radius > 0) {
+        float angle = -o.turn * (o.home - b.back);
+        if (angle < -angle_slack) {
+            angle += b.total;
+        } else if (angle > b.total - angle_slack) {
+            angle -= b.total;
+        }
+        b_sees = angle <= half_turn;
+        const SineCosine t = half_turn_sine_cosine(std::min(angle, pi));
+        from_b = {length - b_radius * t.cosine, std::max(0.0F, b_radius * t.sine)};
+    }
+    const float tolerance = 1e-5F * length;
+    const auto on_edge = [&](float x) { return x >= -tolerance && x <= length + tolerance; };
+    const float a_cross = crossing(from_a, cx, cy), b_cross = crossing(from_b, cx, cy);
+    const bool a_valid = a_sees && on_edge(a_cross), b_valid = b_sees && on_edge(b_cross);
+    if (!a_valid && !b_valid) {
+        return;
+    }
+    const float a_reach = a.offset + distance_between(cx - from_a.x, cy + from_a.y);
+    const float b_reach = b.offset + distance_between(cx - from_b.x, cy + from_b.y);
+    const bool a_nearer = a_valid && (!b_valid || a_reach <= b_reach);
+    float distance = a_nearer ? a_reach : b_reach;
+    Centre centre = a_nearer ? from_a : from_b;
+    uint32_t label = a_nearer ? a.label : b.label;
+    if (a_sees && b_sees && a.label == b.label) {
+        // How far each front misses the other's end; their sum is twice what a straight blend is too long by.
+        const float miss_b = a.offset + distance_between(length - from_a.x, from_a.y) - b.distance;
+        const float miss_a = b.offset + distance_between(from_b.x, from_b.y) - a.distance;
+        const float miss = std::max(std::fabs(miss_a), std::fabs(miss_b));
+        const bool overlap = miss_a + miss_b > 0;
+        if (miss < (overlap ? overlap_last : gap_last) * length) {
+            const float xa = clamp_unit(a_cross / length), xb = clamp_unit(b_cross / length);
+            const float fall = 1 + xa - xb;
+            float x = fall > 0.01F ? xa / fall : 0.5F * (xa + xb);
+            x = x <= 1 ? x : 0.5F * (xa + xb);
+            const Centre blended{(1 - x) * from_a.x + x * from_b.x, (1 - x) * from_a.y + x * from_b.y};
+            if (!on_edge(crossing(blended, cx, cy))) {
+                return;
+            }
+            const float hermite = (1 - x) * a_reach + x * b_reach - 0.5F * x * (1 - x) * (miss_a + miss_b);
+            const float apart = overlap ? clamp_unit((miss / length - overlap_first) / overlap_range) : 0.0F;
+            distance = hermite + apart * (distance - hermite);
+            if (apart <= 0.5F) {
+                centre = blended;
+            }
+            label = a.label;
+        }
+    }
+    // A path along an edge that is hardly too long still points the centre wrong, by the root of its excess.
+    const float needed_gain = (c.stamp & provisional_bit) != 0 ? -provisional_slack : least_gain;
+    if (distance < known * (1 - needed_gain) && distance >= least_) {
+        const float wx = centre.x - cx, wy = -centre.y - cy;
+        const float across = std::max(0.0F, cy * wx - cx * wy), along = -cx * wx - cy * wy;
+        accept(o.corner, distance, distance - distance_between(wx, wy),
+               o.corner_back + o.turn * half_turn_angle(along, across), label);
+    }
+}
+
+/// Whether a path that bends at the vertex is the shortest near it: at least half a turn on both sides, or
+/// the boundary in place of one.
+bool VertexFronts::in_shadow(const Front& front, float direction) {
+    const float turn = std::fabs(direction - front.back);
+    return turn >= shadow_turn && front.total - turn >= shadow_turn;
+}
+
+void VertexFronts::follow_edge(uint32_t from, const Spoke& spoke) {
+    const Front& a = fronts_[from];
+    const Front& c = fronts_[spoke.vertex];
+    const float distance = a.distance + spoke.length;
+    if (distance < least_ || (is_reached(c) && distance >= c.distance * (1 - least_gain))) {
+        return;
+    }
+    const bool straight = a.distance <= a.offset || in_shadow(a, spoke.direction);
+    // A slight saddle re-aims the centre straight behind it, a strong one becomes the centre.
+    float bend = a.bend < 0 ? 1 : a.bend;
+    if (a.total == Fan::open && a.bend > 0) {
+        bend = clamp_unit((std::fabs(spoke.direction - a.back) - pi) / boundary_bend);
+    }
+    accept(spoke.vertex, distance, a.offset + (a.distance - a.offset) * bend, spoke.back, a.label,
+           straight ? 0 : spoke.length * edge_delay);
+    fronts_[spoke.vertex].stamp |= straight ? 0 : provisional_bit;
+}
+
+void VertexFronts::march_from(uint32_t vertex) {
+    const uint32_t first = fronts_[vertex].first_spoke, end = fronts_[vertex + 1].first_spoke;
+    for (uint32_t i = first; i < end; ++i) {
+        const Spoke& p = table_.spokes[i];
+        if (p.sine < 0) {
+            continue;
+        }
+        const Spoke& q = table_.spokes[i + 1 < end ? i + 1 : first];
+        update(vertex, {p.vertex, q.vertex, p.length, q.length * p.cosine, q.length * p.sine, p.direction,
+                        p.back, q.back, 1});
+        update(vertex, {q.vertex, p.vertex, q.length, p.length * p.cosine, p.length * p.sine, q.direction,
+                        q.back, p.back, -1});
+    }
+    for (uint32_t i = first; i < end; ++i) {
+        follow_edge(vertex, table_.spokes[i]);
+    }
+}
+
+void VertexFronts::run(std::span<const FrontSeed> seeds, double radius) {
+    run_stamp_ += run_step;
+    if (run_stamp_ >= no_index - run_step) {
+        for (Front& front : fronts_) {
+            front.stamp = 0;
+        }
+        run_stamp_ = run_step;
+    }
+    reached_.clear();
+    queue_.clear();
+    last_bucket_ = queue_.bucket_of(radius + slack_);
+    least_ = -1;
+    for (const FrontSeed& seed : seeds) {
+        const Front& front = fronts_[seed.vertex];
+        if (!is_reached(front) || seed.distance < front.distance) {
+            accept(seed.vertex, seed.distance, 0, seed.direction, seed.label);
+        }
+    }
+    while (!queue_.empty()) {
+        const Waiting next = queue_.pop();
+        Front& front = fronts_[next.vertex];
+        if (next.distance != front.distance || is_settled(front)) {
+            continue;
+        }
+        // An unbounded run would go on here; what it still finds must not lie within the radius.
+        least_ = static_cast<float>(static_cast<double>(queue_.current()) * queue_.width()) - slack_;
+        front.stamp += march_step;
+        front.stamp |= settled_bit;
+        march_from(next.vertex);
+    }
+}
+
+} // namespace anvil

@@ -1,0 +1,69 @@
+// Approximate geodesic distances: a front at every vertex, blended across edges.
+#pragma once
+
+#include "engine/distance/bucket_queue.h"
+#include "engine/distance/fan_table.h"
+
+namespace anvil {
+
+/// Start value of a front: `vertex` sees source `label` in a straight line.
+struct FrontSeed {
+    uint32_t vertex = 0;
+    uint32_t label = 0;
+    float distance = 0;
+    float direction = 0; ///< to the source, at the vertex
+};
+
+/// A workspace over one table, kept between runs; a run touches only what it reaches.
+/// Every vertex that is reached carries its distance d, an offset s and the direction of a centre at d - s:
+/// near the vertex the distance is s + the way to the centre, so bends (s: distance of the bend) are kept.
+/// The third corner of a triangle gets a Hermite blend of the fronts of both ends of the opposite edge:
+/// second order on smooth surfaces, exact where the surface unfolds.
+class VertexFronts {
+  public:
+    explicit VertexFronts(const FanTable& table);
+
+    /// Marches from the seeds until every vertex within `radius` (units of the graph) has the value of an
+    /// unbounded run, bit for bit.
+    void run(std::span<const FrontSeed> seeds, double radius);
+
+    /// Vertices that have a value, in order of arrival; values beyond the radius need not be final.
+    std::span<const uint32_t> reached() const { return reached_; }
+    float distance(uint32_t vertex) const { return fronts_[vertex].distance; }
+
+  private:
+    struct Front {
+        float distance = 0;
+        float offset = 0; ///< distance of the centre itself from the source
+        float back = 0;   ///< direction of the centre
+        uint32_t label = 0;
+        uint32_t stamp = 0; ///< run, then times marched from, then whether it is final so far
+        float total = 0, bend = 0;
+        uint32_t first_spoke = 0;
+    };
+    struct Waiting {
+        float distance;
+        uint32_t vertex;
+    };
+    struct Opposite;
+
+    bool is_reached(const Front& front) const { return front.stamp >= run_stamp_; }
+    static bool in_shadow(const Front& front, float direction);
+    static bool is_settled(const Front& front) { return (front.stamp & 1) != 0; }
+    void accept(uint32_t vertex, float distance, float offset, float direction, uint32_t label,
+                float delay = 0);
+    void march_from(uint32_t vertex);
+    void update(uint32_t from, const Opposite& corner);
+    void follow_edge(uint32_t from, const Spoke& spoke);
+
+    const FanTable& table_;
+    std::vector<Front> fronts_;
+    BucketQueue<Waiting> queue_;
+    std::vector<uint32_t> reached_;
+    uint32_t run_stamp_ = 0;
+    float least_ = 0; ///< values below this come too late: the front has passed
+    float slack_ = 0;
+    size_t last_bucket_ = 0;
+};
+
+} // namespace anvil
