@@ -83,6 +83,7 @@ int main(int argc, char** argv) {
                    "Exit status: 0 done, 2 the input, 3 the device, 4 could not write, 1 a fault of Anvil, "
                    "130 interrupted.");
     program.require_subcommand(1);
+    anvil::add_forge(program, context);
     anvil::add_info(program, context);
     anvil::add_later_commands(program);
 

@@ -3,6 +3,7 @@
 
 #include "engine/core/types.h"
 #include "engine/edit/distance_method.h"
+#include "engine/edit/distance_method.h"
 #include "engine/mesh/mesh.h"
 #include "engine/mesh/surface_point.h"
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/types.h"
+#include "engine/mesh/mesh.h"
 #include "engine/occluder/kernel_types.h"
 
 #include <memory>
@@ -27,6 +28,10 @@ class ExactDistance {
 /// Distance by the nodes' formulas: exact for one analytic leaf, for several a bound with exact sign and zero
 /// set (no volume leaves).
 std::shared_ptr<const ExactDistance> formula_distance(std::vector<kernel::f64::ShapeNode> nodes);
+
+/// Triangle mesh of a bounded solid's surface with its sharp edges, in its own space; empty for an empty
+/// solid. `cells` polygonization cells along the longest side of its bounds.
+Mesh surface_of(const ExactDistance& solid, int cells);
 
 /// True distance of a bounded Boolean combination: closest point of a fine polygonization of the zero set,
 /// put on the zero set of the formula (`cells` polygonization cells along the longest side).

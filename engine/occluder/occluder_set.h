@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/progress.h"
+#include "engine/edit/recipe.h"
 #include "engine/occluder/distance_volume.h"
 #include "engine/occluder/exact_distance.h"
 #include "engine/occluder/kernel_types.h"
@@ -11,11 +12,6 @@
 #include <vector>
 
 namespace anvil {
-
-struct OccluderShape; // engine/edit/recipe.h
-struct Field;
-struct Transform;
-struct Influence;
 
 /// Flat arrays as the kernels read them, lengths relative to a local origin; `exact` and `names` have one
 /// entry per occluder.

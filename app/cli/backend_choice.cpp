@@ -1,0 +1,18 @@
+#include "app/cli/backend_choice.h"
+
+#include "engine/gpu/gpu_backend.h"
+
+namespace anvil {
+
+ChosenBackend choose_backend(const std::string& device) {
+    if (device == "cpu") {
+        return {make_cpu_backend(), nullptr};
+    }
+    DeviceOptions options;
+    options.choice = device;
+    auto opened = std::make_shared<Device>(options);
+    auto backend = make_gpu_backend(opened);
+    return {std::move(backend), std::move(opened)};
+}
+
+} // namespace anvil

@@ -1,0 +1,104 @@
+#include "app/cli/forge_picture.h"
+
+#include "engine/gpu/offscreen_renderer.h"
+#include "engine/occluder/exact_distance.h"
+#include "engine/occluder/shape_nodes.h"
+
+#include <list>
+#include <set>
+
+namespace anvil {
+
+namespace {
+
+constexpr int occluder_cells = 96;
+
+struct DrawnSurface {
+    std::vector<glm::vec3> positions;
+    std::vector<Triangle> triangles;
+};
+
+std::vector<glm::vec3> relative(std::span<const Vec3> positions, const Vec3& origin) {
+    std::vector<glm::vec3> result;
+    result.reserve(positions.size());
+    for (const Vec3& p : positions) {
+        result.emplace_back(p - origin);
+    }
+    return result;
+}
+
+/// A square of an unbounded plane as wide as the scene, below the scene's centre.
+Mesh plane_patch(const PlaneShape& plane, const Vec3& near, double half) {
+    const Vec3 n = plane.normal / glm::length(plane.normal);
+    const Vec3 u = glm::normalize(glm::cross(n, std::abs(n.x) < 0.7 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
+    const Vec3 v = glm::cross(n, u);
+    const Vec3 centre = near - (glm::dot(n, near) - plane.offset) * n;
+    Mesh mesh;
+    mesh.positions = {centre + half * (u + v), centre + half * (v - u), centre - half * (u + v),
+                      centre + half * (u - v)};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return mesh;
+}
+
+DrawnSurface occluder_surface(const Occluder& occluder, const Transform& pose, const Box& scene) {
+    const Placement place = placement(pose);
+    Mesh mesh;
+    if (const auto* plane = std::get_if<PlaneShape>(&occluder.shape.solid)) {
+        const Vec3 arm = (scene.centre() - place.origin) / place.scale;
+        const Vec3 near(glm::dot(place.axes[0], arm), glm::dot(place.axes[1], arm),
+                        glm::dot(place.axes[2], arm));
+        mesh = plane_patch(*plane, near, 0.6 * scene.diagonal() / place.scale);
+    } else if (is_bounded(occluder.shape)) {
+        mesh = surface_of(*formula_distance(shape_nodes(occluder.shape)), occluder_cells);
+    }
+    for (Vec3& p : mesh.positions) {
+        p = place.origin + place.scale * (place.axes[0] * p.x + place.axes[1] * p.y + place.axes[2] * p.z);
+    }
+    return {relative(mesh.positions, scene.centre()), mesh.triangles};
+}
+
+/// The occluders as the last edit that uses any places them.
+std::vector<OccluderUse> drawn_occluders(const Recipe& recipe) {
+    for (size_t i = recipe.edits.size(); i-- > 0;) {
+        auto uses = occluders_of(recipe, recipe.edits[i]);
+        if (!uses.empty()) {
+            return uses;
+        }
+    }
+    return {};
+}
+
+Box box_of(std::span<const Vec3> positions) {
+    Box box;
+    for (const Vec3& p : positions) {
+        box.include(p);
+    }
+    return box;
+}
+
+} // namespace
+
+Picture forge_picture(Device& device, const Mesh& mesh, const Recipe& recipe, const ForgeResult& result,
+                      const PictureView& view, PictureSize size, Progress& progress) {
+    progress.report("picture", 0);
+    const Box scene = box_of(result.positions);
+    std::list<DrawnSurface> occluders;
+    for (const OccluderUse& use : drawn_occluders(recipe)) {
+        occluders.push_back(occluder_surface(*find_occluder(recipe, use.name), *use.transform, scene));
+    }
+    const auto positions = relative(result.positions, scene.centre());
+    std::vector<PictureSurface> surfaces{{positions, mesh.triangles, result.weights}};
+    for (const DrawnSurface& occluder : occluders) {
+        PictureSurface surface{occluder.positions, occluder.triangles};
+        surface.base_colour = glm::vec3(0.45F, 0.62F, 0.75F);
+        surface.opacity = 0.45F;
+        surfaces.push_back(surface);
+    }
+    progress.report("picture", 0.5);
+    OffscreenRenderer renderer(device);
+    Picture picture = renderer.render(surfaces, view, size);
+    progress.report("picture", 1);
+    return picture;
+}
+
+} // namespace anvil

@@ -1,0 +1,41 @@
+// What the CPU sees to after a back end: no vertex that started outside ends inside, by exact distances in
+// double.
+#pragma once
+
+#include "engine/core/types.h"
+#include "engine/occluder/occluder_set.h"
+
+#include <span>
+#include <vector>
+
+namespace anvil {
+
+/// Counts of one edit's contact; lengths in world units.
+struct ContactReport {
+    size_t started_inside = 0;
+    size_t penetrating_vertices =
+        0;                      ///< of those that started outside, deeper than 1e-6 of the occluder's size
+    double max_penetration = 0; ///< of those that started outside
+    size_t penetrating_triangles = 0;
+    double deepest_dip = 0; ///< deepest sampled point of a penetrating triangle
+    size_t finished_on_cpu = 0;
+    size_t contact_vertices = 0; ///< end within 1e-3 of the occluder's size of its surface, or were held
+};
+
+/// Moves each point of `ends` that is inside an occluder, although its `start` was outside, to the closest
+/// point of the surface; where that fails (wedges), back along the segment to its start until it is outside.
+/// `inside[i]`: the point started inside and is left alone. All relative to the local origin.
+/// @return how many were moved.
+size_t finish_contact(const OccluderSet& set, std::span<const Vec3> starts, const std::vector<bool>& inside,
+                      std::span<Vec3> ends);
+
+/// Fills penetrating_vertices and max_penetration of the points as they are.
+void measure_vertices(const OccluderSet& set, std::span<const Vec3> ends, const std::vector<bool>& inside,
+                      ContactReport& report);
+
+/// Fills penetrating_triangles and deepest_dip: a triangle is certified outside if a corner is farther out
+/// than it is from the triangle's other points; all others are sampled (edges and inside, 15 points).
+void measure_triangles(const OccluderSet& set, std::span<const Vec3> positions,
+                       std::span<const Triangle> triangles, ContactReport& report);
+
+} // namespace anvil

@@ -1,0 +1,183 @@
+#include "engine/forge/edit_motion.h"
+
+#include "engine/core/error.h"
+#include "engine/edit/rotation.h"
+
+#include <cmath>
+
+namespace anvil {
+
+namespace {
+
+constexpr int newton_steps =
+    6; // rotations of points inside faces: the error falls by the face's angle each time
+constexpr uint32_t paper_steps = 32;
+
+std::vector<double> system_matrix(const EditRegion& region) {
+    const size_t k = region.shapes.size();
+    std::vector<double> a(k * k, 0.0);
+    for (size_t i = 0; i < k; ++i) {
+        for (size_t j = 0; j < k; ++j) {
+            for (const VertexWeight& w : region.handle_weights[i]) {
+                a[i * k + j] += w.weight * region.weight(j, w.vertex);
+            }
+        }
+    }
+    return a;
+}
+
+std::vector<double> displacement_targets(const Edit& edit, const EditRegion& region) {
+    std::vector<double> targets;
+    for (size_t i = 0; i < edit.handles.size(); ++i) {
+        const Handle& handle = edit.handles[i];
+        const Vec3 by = handle.by ? *handle.by : *handle.to - region.handle_positions[i];
+        for (int c = 0; c < 3; ++c) {
+            targets.push_back(edit.amount * by[c]);
+        }
+    }
+    return targets;
+}
+
+std::vector<double> angle_targets(const Edit& edit, const EditRegion& region) {
+    std::vector<double> targets;
+    for (size_t i = 0; i < edit.handles.size(); ++i) {
+        const Handle& handle = edit.handles[i];
+        const double degrees = handle.degrees ? *handle.degrees
+                                              : angle_to_reach(region.handle_positions[i], edit.axis.origin,
+                                                               edit.axis.direction, *handle.to);
+        targets.push_back(edit.amount * glm::radians(degrees));
+    }
+    return targets;
+}
+
+/// The rotation about the edit's axis.
+struct Turn {
+    Vec3 origin;
+    Vec3 direction; ///< unit
+
+    Vec3 operator()(const Vec3& p, double angle) const {
+        const Vec3 arm = p - origin;
+        const Vec3 across = arm - direction * glm::dot(direction, arm);
+        const Vec3 turned = glm::cross(direction, arm);
+        const double half = 0.5 * angle;
+        return p + 2 * std::sin(half) * (std::cos(half) * turned - std::sin(half) * across);
+    }
+
+    /// Angle from p to q about the axis, in (-pi, pi].
+    double between(const Vec3& p, const Vec3& q) const {
+        const Vec3 a = p - origin - direction * glm::dot(direction, p - origin);
+        const Vec3 b = q - origin - direction * glm::dot(direction, q - origin);
+        return std::atan2(glm::dot(direction, glm::cross(a, b)), glm::dot(a, b));
+    }
+};
+
+/// Where handle i ends when its vertices turn by sum_j alpha_j(v) x_j.
+Vec3 turned_handle(const EditRegion& region, std::span<const Vec3> positions, const Turn& turn,
+                   std::span<const double> x, size_t i) {
+    Vec3 end(0);
+    for (const VertexWeight& w : region.handle_weights[i]) {
+        double angle = 0;
+        for (size_t j = 0; j < x.size(); ++j) {
+            angle += region.weight(j, w.vertex) * x[j];
+        }
+        end += w.weight * turn(positions[w.vertex], angle);
+    }
+    return end;
+}
+
+/// Missing angle of every handle: target minus where the point on the moved face stands.
+std::vector<double> missing_angles(const EditRegion& region, std::span<const Vec3> positions,
+                                   const Turn& turn, std::span<const double> x,
+                                   std::span<const double> targets) {
+    std::vector<double> missing(targets.size());
+    for (size_t i = 0; i < targets.size(); ++i) {
+        const Vec3 wanted = turn(region.handle_positions[i], targets[i]);
+        missing[i] = turn.between(turned_handle(region, positions, turn, x, i), wanted);
+    }
+    return missing;
+}
+
+bool any_inside_face(const EditRegion& region) {
+    for (const auto& weights : region.handle_weights) {
+        if (weights.size() > 1) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void correct_angles(const EditRegion& region, std::span<const Vec3> positions, const Turn& turn,
+                    const std::vector<double>& a, std::span<const double> targets, Solution& solution) {
+    for (int step = 0; step < newton_steps; ++step) {
+        const auto missing = missing_angles(region, positions, turn, solution.x, targets);
+        const Solution correction = solve_constraints(a, missing, 1);
+        for (size_t j = 0; j < solution.x.size(); ++j) {
+            solution.x[j] += correction.x[j];
+        }
+    }
+}
+
+void set_steps(const Edit& edit, DeformMotion& motion, bool paper) {
+    const Steps steps = edit.steps.value_or(paper ? Steps{false, paper_steps} : Steps{});
+    motion.fixed_steps = !steps.adaptive;
+    motion.steps = steps.count;
+}
+
+std::vector<std::string> handle_names(const Edit& edit, const std::string& place) {
+    std::vector<std::string> names;
+    for (size_t i = 0; i < edit.handles.size(); ++i) {
+        names.push_back(place + ".handles[" + std::to_string(i) + "] (" + describe(edit.handles[i].at) + ")");
+    }
+    return names;
+}
+
+EditMotion translation(const Edit& edit, const EditRegion& region, const std::vector<double>& a,
+                       const std::vector<std::string>& names, Log& log) {
+    EditMotion result;
+    const auto targets = displacement_targets(edit, region);
+    result.solution = solve_constraints(a, targets, 3);
+    check_targets(result.solution, targets, edit.least_squares, names, log);
+    result.target_errors = result.solution.target_error;
+    for (size_t j = 0; j < edit.handles.size(); ++j) {
+        const double* x = &result.solution.x[3 * j];
+        result.motion.targets.emplace_back(x[0], x[1], x[2]);
+    }
+    return result;
+}
+
+EditMotion rotation(const Edit& edit, const EditRegion& region, std::span<const Vec3> positions,
+                    const std::vector<double>& a, const std::vector<std::string>& names, const Vec3& origin,
+                    Log& log) {
+    EditMotion result;
+    const Turn turn{edit.axis.origin, edit.axis.direction / glm::length(edit.axis.direction)};
+    const auto targets = angle_targets(edit, region);
+    result.solution = solve_constraints(a, targets, 1);
+    check_targets(result.solution, targets, edit.least_squares, names, log);
+    if (any_inside_face(region) && !edit.least_squares) {
+        correct_angles(region, positions, turn, a, targets, result.solution);
+    }
+    for (size_t i = 0; i < edit.handles.size(); ++i) {
+        const Vec3 end = turned_handle(region, positions, turn, result.solution.x, i);
+        result.target_errors.push_back(glm::length(end - turn(region.handle_positions[i], targets[i])));
+        result.motion.targets.emplace_back(result.solution.x[i], 0, 0);
+    }
+    result.motion.kind = edit.sweep == Sweep::arc ? MotionKind::arc : MotionKind::chord;
+    result.motion.axis_origin = turn.origin - origin;
+    result.motion.axis_direction = turn.direction;
+    return result;
+}
+
+} // namespace
+
+EditMotion find_motion(const Edit& edit, const EditRegion& region, std::span<const Vec3> positions,
+                       const Vec3& origin, const std::string& place, bool paper, Log& log) {
+    const auto a = system_matrix(region);
+    const auto names = handle_names(edit, place);
+    EditMotion result = edit.kind == EditKind::translate
+                            ? translation(edit, region, a, names, log)
+                            : rotation(edit, region, positions, a, names, origin, log);
+    set_steps(edit, result.motion, paper);
+    return result;
+}
+
+} // namespace anvil

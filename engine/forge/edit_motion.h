@@ -1,0 +1,28 @@
+// Where an edit's handles go: the constraint system over the region's weights.
+#pragma once
+
+#include "engine/core/log.h"
+#include "engine/deform/deform_input.h"
+#include "engine/edit/recipe.h"
+#include "engine/forge/edit_region.h"
+#include "engine/solve/constraint_solver.h"
+
+#include <string>
+
+namespace anvil {
+
+struct EditMotion {
+    DeformMotion motion;
+    Solution solution;
+    std::vector<double> target_errors; ///< k, world units: how far each handle ends from its target
+};
+
+/// Solves A X = D (eq. 4-5, 9) for the partial displacements or angles. A(i,j) = sum_v b_v alpha_j(v) over
+/// the vertices that carry handle i. Rotations of handles inside faces are corrected by Newton steps, so that
+/// the point on the moved face stands at the asked angle. `place` is "edits[i]"; `origin`: local origin;
+/// `paper`: the edit's occluders act by the paper's rule, whose default is 32 equal steps.
+/// @throws InputError if a target is out of reach and the edit does not ask for least squares.
+EditMotion find_motion(const Edit& edit, const EditRegion& region, std::span<const Vec3> positions,
+                       const Vec3& origin, const std::string& place, bool paper, Log& log);
+
+} // namespace anvil

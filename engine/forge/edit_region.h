@@ -1,0 +1,32 @@
+// Where an edit acts: its handles on the mesh, their distances, and the vertices that it can move.
+#pragma once
+
+#include "engine/distance/distance.h"
+#include "engine/edit/recipe.h"
+#include "engine/edit/shape_function.h"
+#include "engine/forge/surface_resolver.h"
+
+#include <string>
+#include <vector>
+
+namespace anvil {
+
+/// An edit's handles on the mesh. Sizes: k handles, n = vertices.size().
+struct EditRegion {
+    std::vector<Vec3> handle_positions;                    ///< k
+    std::vector<std::vector<VertexWeight>> handle_weights; ///< k: the vertices that carry each handle
+    std::vector<double> radii;                             ///< k, world units
+    std::vector<ShapeFunction> shapes;                     ///< k
+    std::vector<uint32_t> vertices;                        ///< ascending: t <= 1 for some handle, not pinned
+    std::vector<double> fields; ///< k x n: t = gamma / R, infinite where not reached
+    std::string method;         ///< how distances were found, for the report
+
+    /// Weight alpha_j of handle j at vertex `v`; 0 outside the region.
+    double weight(size_t j, uint32_t v) const;
+};
+
+/// @throws InputError with `place` ("edits[2]") in front: bad addresses, a radius that cannot be defaulted.
+EditRegion find_region(const Mesh& mesh, std::span<const Vec3> positions, const Edit& edit,
+                       const std::string& place, SurfaceResolver& resolver, const GeodesicSolver& solver);
+
+} // namespace anvil

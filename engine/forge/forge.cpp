@@ -1,0 +1,271 @@
+#include "engine/forge/forge.h"
+
+#include "engine/core/error.h"
+#include "engine/distance/distance.h"
+#include "engine/forge/edit_motion.h"
+#include "engine/forge/edit_region.h"
+#include "engine/forge/volume.h"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+
+namespace anvil {
+
+namespace {
+
+/// Adds the time that it lives to a stage.
+class StageTimer {
+  public:
+    explicit StageTimer(double& seconds) : seconds_(seconds), start_(Clock::now()) {}
+    ~StageTimer() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+    StageTimer(const StageTimer&) = delete;
+    StageTimer& operator=(const StageTimer&) = delete;
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    double& seconds_;
+    Clock::time_point start_;
+};
+
+class Forger {
+  public:
+    Forger(const Mesh& mesh, const Recipe& recipe, Backend& backend, Log& log, Progress& progress)
+        : mesh_(mesh), recipe_(recipe), backend_(backend), log_(log), progress_(progress) {
+        result_.positions = mesh.positions;
+        result_.moved.assign(mesh.vertex_count(), false);
+        result_.weights.assign(mesh.vertex_count(), 0.0F);
+        const Box box = bounds(mesh);
+        origin_ = box.empty() ? Vec3(0) : box.centre();
+        diagonal_ = box.diagonal();
+    }
+
+    ForgeResult run() {
+        result_.report.device = backend_.device_name();
+        result_.report.driver = backend_.driver_name();
+        result_.report.vertices = mesh_.vertex_count();
+        result_.report.faces = mesh_.polygon_count();
+        build_models();
+        for (size_t i = 0; i < recipe_.edits.size(); ++i) {
+            progress_.report("forge", static_cast<double>(i) / static_cast<double>(recipe_.edits.size()));
+            apply(recipe_.edits[i], "edits[" + std::to_string(i) + "]");
+        }
+        progress_.report("forge", 1);
+        result_.report.warnings = log_.warnings;
+        return std::move(result_);
+    }
+
+  private:
+    StageSeconds& seconds() { return result_.report.seconds; }
+
+    void build_models() {
+        const StageTimer timer(seconds().bake);
+        for (size_t i = 0; i < recipe_.occluders.size(); ++i) {
+            const Occluder& occluder = recipe_.occluders[i];
+            try {
+                models_.emplace(occluder.name,
+                                build_model(occluder.shape, occluder.field.value_or(Field{}), progress_));
+            } catch (const InputError& error) {
+                throw InputError("occluders[" + std::to_string(i) + "] \"" + occluder.name +
+                                 "\": " + error.what());
+            }
+        }
+    }
+
+    OccluderSet occluders(const Edit& edit, double radius) const {
+        OccluderSet set;
+        for (const OccluderUse& use : occluders_of(recipe_, edit)) {
+            add_occluder(set, models_.at(use.name), use.name, *use.transform, *use.influence,
+                         {origin_, diagonal_, radius});
+        }
+        return set;
+    }
+
+    void apply(const Edit& edit, const std::string& place) {
+        EditReport report;
+        report.kind = edit.kind == EditKind::translate ? "translate" : "rotate";
+        const EditRegion region = measure_region(edit, place);
+        report.radii = region.radii;
+        report.region = region.vertices.size();
+        report.distance_method = region.method;
+
+        DeformInput input = prepare_input(edit, region);
+        const EditMotion motion = solve(edit, region, input, place, report);
+        const auto results = deform(input, motion.motion);
+        const std::vector<Vec3> before = result_.positions;
+        move_vertices(region, input, results, report);
+        report_contact(region, input, report);
+        report.volume = volume_change(mesh_, before, result_.positions);
+        note_region(region, input);
+        result_.report.edits.push_back(std::move(report));
+    }
+
+    EditRegion measure_region(const Edit& edit, const std::string& place) {
+        const StageTimer timer(seconds().distance);
+        SurfaceResolver resolver(mesh_, result_.positions);
+        const GeodesicSolver solver(mesh_, result_.positions);
+        return find_region(mesh_, result_.positions, edit, place, resolver, solver);
+    }
+
+    DeformInput prepare_input(const Edit& edit, const EditRegion& region) {
+        const StageTimer timer(seconds().solve);
+        DeformInput input;
+        input.handle_count = region.shapes.size();
+        input.fields = region.fields;
+        for (uint32_t v : region.vertices) {
+            input.points.push_back(result_.positions[v] - origin_);
+        }
+        for (const ShapeFunction& shape : region.shapes) {
+            input.shapes.push_back({static_cast<uint32_t>(input.segments.size()),
+                                    static_cast<uint32_t>(shape.segments().size())});
+            for (const auto& s : shape.segments()) {
+                input.segments.push_back({s.begin, s.c0, s.c1, s.c2, s.c3});
+            }
+        }
+        input.occluders = occluders(edit, *std::max_element(region.radii.begin(), region.radii.end()));
+        find_start_distances(input);
+        return input;
+    }
+
+    EditMotion solve(const Edit& edit, const EditRegion& region, const DeformInput& input,
+                     const std::string& place, EditReport& report) {
+        const StageTimer timer(seconds().solve);
+        EditMotion motion =
+            find_motion(edit, region, result_.positions, origin_, place, input.occluders.paper, log_);
+        report.rank = motion.solution.rank;
+        report.condition = motion.solution.condition;
+        report.amplification = motion.solution.amplification;
+        report.target_errors = motion.target_errors;
+        return motion;
+    }
+
+    std::vector<PointResult> deform(const DeformInput& input, const DeformMotion& motion) {
+        std::unique_ptr<DeformSession> session;
+        {
+            const StageTimer timer(seconds().upload);
+            session = backend_.prepare(input);
+        }
+        {
+            const StageTimer timer(seconds().deform);
+            session->update(motion);
+            session->wait();
+        }
+        const StageTimer timer(seconds().download);
+        return session->download();
+    }
+
+    /// Adds the displacements in double; where occluders are, the exact finish decides.
+    void move_vertices(const EditRegion& region, const DeformInput& input,
+                       const std::vector<PointResult>& results, EditReport& report) {
+        const StageTimer timer(seconds().deform);
+        std::vector<Vec3> ends(input.points.size());
+        std::vector<bool> inside(input.points.size(), false);
+        for (size_t i = 0; i < ends.size(); ++i) {
+            if (!is_finite(results[i].displacement)) {
+                throw InternalError("vertex " + std::to_string(region.vertices[i]) +
+                                    " was moved to no place");
+            }
+            ends[i] = input.points[i] + results[i].displacement;
+            inside[i] = (results[i].flags & kernel::f64::VERTEX_STARTED_INSIDE) != 0;
+        }
+        const std::vector<Vec3> unfinished = ends;
+        if (!input.occluders.empty()) {
+            report.contact = ContactReport{};
+            count_contact(results, inside, *report.contact);
+            if (!input.occluders.paper) {
+                report.contact->finished_on_cpu = finish_contact(input.occluders, input.points, inside, ends);
+            }
+            measure_vertices(input.occluders, ends, inside, *report.contact);
+        }
+        for (size_t i = 0; i < ends.size(); ++i) {
+            const Vec3 displacement = results[i].displacement + (ends[i] - unfinished[i]);
+            Vec3& position = result_.positions[region.vertices[i]];
+            const Vec3 end = position + displacement;
+            report.moved += end != position ? 1 : 0;
+            result_.moved[region.vertices[i]] = result_.moved[region.vertices[i]] || end != position;
+            position = end;
+        }
+        count_steps(results, report);
+    }
+
+    static void count_contact(const std::vector<PointResult>& results, const std::vector<bool>& inside,
+                              ContactReport& report) {
+        for (size_t i = 0; i < results.size(); ++i) {
+            report.started_inside += inside[i] ? 1 : 0;
+            report.contact_vertices += (results[i].flags & kernel::f64::VERTEX_TOUCHED) != 0 ? 1 : 0;
+        }
+    }
+
+    void count_steps(const std::vector<PointResult>& results, EditReport& report) {
+        if (results.empty()) {
+            return;
+        }
+        report.steps.min = no_index;
+        double total = 0;
+        for (const PointResult& r : results) {
+            report.steps.min = std::min(report.steps.min, r.steps);
+            report.steps.max = std::max(report.steps.max, r.steps);
+            report.steps.limit_reached += (r.flags & kernel::f64::VERTEX_LIMIT_REACHED) != 0 ? 1 : 0;
+            report.samples += r.samples;
+            total += r.steps;
+        }
+        report.steps.mean = total / static_cast<double>(results.size());
+        if (report.steps.limit_reached > 0) {
+            log_.warn(std::to_string(report.steps.limit_reached) +
+                      " vertices reached the step limit and stopped outside the occluder: raise \"steps\": "
+                      "{\"max\": "
+                      "...} or shorten the path");
+        }
+    }
+
+    void report_contact(const EditRegion& region, const DeformInput& input, EditReport& report) {
+        if (input.occluders.empty()) {
+            return;
+        }
+        const StageTimer timer(seconds().deform);
+        std::vector<bool> in_region(mesh_.vertex_count(), false);
+        for (uint32_t v : region.vertices) {
+            in_region[v] = true;
+        }
+        std::vector<Triangle> triangles;
+        for (const Triangle& t : mesh_.triangles) {
+            if (in_region[t[0]] || in_region[t[1]] || in_region[t[2]]) {
+                triangles.push_back(t);
+            }
+        }
+        std::vector<Vec3> local(result_.positions);
+        for (Vec3& p : local) {
+            p -= origin_;
+        }
+        measure_triangles(input.occluders, local, triangles, *report.contact);
+    }
+
+    void note_region(const EditRegion& region, const DeformInput& input) {
+        const size_t n = region.vertices.size();
+        for (size_t i = 0; i < n; ++i) {
+            float& weight = result_.weights[region.vertices[i]];
+            for (size_t j = 0; j < input.handle_count; ++j) {
+                const double alpha = std::abs(region.shapes[j](region.fields[j * n + i]));
+                weight = std::max(weight, static_cast<float>(std::min(alpha, 1.0)));
+            }
+        }
+    }
+
+    const Mesh& mesh_;
+    const Recipe& recipe_;
+    Backend& backend_;
+    Log& log_;
+    Progress& progress_;
+    std::map<std::string, OccluderModel> models_;
+    Vec3 origin_{0};
+    double diagonal_ = 0;
+    ForgeResult result_;
+};
+
+} // namespace
+
+ForgeResult forge(const Mesh& mesh, const Recipe& recipe, Backend& backend, Log& log, Progress& progress) {
+    return Forger(mesh, recipe, backend, log, progress).run();
+}
+
+} // namespace anvil

@@ -1,0 +1,31 @@
+// The whole path of an edit record: mesh and recipe in, deformed mesh and report out.
+#pragma once
+
+#include "engine/core/log.h"
+#include "engine/core/progress.h"
+#include "engine/deform/backend.h"
+#include "engine/edit/recipe.h"
+#include "engine/forge/report.h"
+#include "engine/mesh/mesh.h"
+
+#include <vector>
+
+namespace anvil {
+
+struct ForgeResult {
+    std::vector<Vec3>
+        positions;           ///< of the mesh's vertices after all edits; unmoved ones bit for bit as before
+    std::vector<bool> moved; ///< vertices that any edit moved
+    std::vector<float>
+        weights;        ///< largest |phi| of any handle of any edit at each vertex, at most 1: the region
+    ForgeReport report; ///< its load and write seconds are the caller's to fill
+};
+
+/// Applies the recipe's edits in order to the mesh, each evaluated on what the one before left; the recipe's
+/// mesh path is not read. Warnings go to the log and into the report.
+/// @throws InputError naming the place in the recipe (unreachable targets, indices out of range, unbounded
+/// bakes),
+///         DeviceError, Cancelled.
+ForgeResult forge(const Mesh& mesh, const Recipe& recipe, Backend& backend, Log& log, Progress& progress);
+
+} // namespace anvil

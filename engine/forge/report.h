@@ -1,0 +1,67 @@
+// What forging a recipe did, as plain data; report_json writes it with the stable keys that scripts rely on.
+#pragma once
+
+#include "engine/deform/contact_finish.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace anvil {
+
+/// Wall seconds of the stages, over all edits.
+struct StageSeconds {
+    double load = 0;
+    double distance = 0;
+    double solve = 0;
+    double refine = 0;
+    double bake = 0;
+    double upload = 0;
+    double deform = 0;
+    double download = 0;
+    double write = 0;
+};
+
+struct StepCounts {
+    uint32_t min = 0;
+    double mean = 0;
+    uint32_t max = 0;
+    size_t limit_reached = 0; ///< vertices stopped by the step limit
+};
+
+struct VolumeChange {
+    double before = 0;
+    double after = 0;
+};
+
+struct EditReport {
+    std::string kind;            ///< "translate" or "rotate"
+    std::string distance_method; ///< "approximate", "exact" or "euclidean"
+    size_t region = 0;           ///< vertices that the edit can move
+    size_t moved = 0;            ///< vertices whose position changed
+    int rank = 0;
+    double condition = 0;
+    double amplification = 0;
+    std::vector<double> target_errors; ///< per handle, world units, of the constraint system
+    std::vector<double> radii;         ///< per handle, world units
+    StepCounts steps;
+    size_t samples = 0;
+    std::optional<ContactReport> contact; ///< absent without occluders
+    std::optional<VolumeChange> volume;   ///< absent for open meshes
+};
+
+struct ForgeReport {
+    std::string device;
+    std::string driver;
+    size_t vertices = 0;
+    size_t faces = 0;
+    StageSeconds seconds;
+    std::vector<EditReport> edits;
+    std::vector<std::string> warnings;
+};
+
+/// JSON text of the report, 2 spaces of indentation, numbers that round trip; what is not finite is null.
+std::string report_json(const ForgeReport& report);
+
+} // namespace anvil

@@ -1,0 +1,80 @@
+#include "engine/forge/report.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace anvil {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double x) {
+    return std::isfinite(x) ? Json(x) : Json(nullptr);
+}
+
+Json contact_json(const ContactReport& c) {
+    return {
+        {"started_inside", c.started_inside},           {"penetrating_vertices", c.penetrating_vertices},
+        {"max_penetration", number(c.max_penetration)}, {"penetrating_triangles", c.penetrating_triangles},
+        {"deepest_dip", number(c.deepest_dip)},         {"finished_on_cpu", c.finished_on_cpu},
+        {"contact_vertices", c.contact_vertices}};
+}
+
+Json handles_json(const EditReport& edit) {
+    Json handles = Json::array();
+    for (size_t j = 0; j < edit.target_errors.size(); ++j) {
+        handles.push_back(
+            {{"target_error", number(edit.target_errors[j])}, {"radius", number(edit.radii[j])}});
+    }
+    return handles;
+}
+
+Json edit_json(const EditReport& e) {
+    Json json = {{"kind", e.kind},
+                 {"method", e.distance_method},
+                 {"region", e.region},
+                 {"moved", e.moved},
+                 {"rank", e.rank},
+                 {"condition", number(e.condition)},
+                 {"amplification", number(e.amplification)},
+                 {"handles", handles_json(e)},
+                 {"steps",
+                  {{"min", e.steps.min},
+                   {"mean", number(e.steps.mean)},
+                   {"max", e.steps.max},
+                   {"limit_reached", e.steps.limit_reached}}},
+                 {"samples", e.samples}};
+    json["occluder"] = e.contact ? contact_json(*e.contact) : Json(nullptr);
+    json["volume"] = e.volume ? Json{{"before", number(e.volume->before)}, {"after", number(e.volume->after)}}
+                              : Json(nullptr);
+    return json;
+}
+
+} // namespace
+
+std::string report_json(const ForgeReport& report) {
+    const StageSeconds& s = report.seconds;
+    Json json = {{"device", report.device},
+                 {"driver", report.driver},
+                 {"vertices", report.vertices},
+                 {"faces", report.faces},
+                 {"seconds",
+                  {{"load", s.load},
+                   {"distance", s.distance},
+                   {"solve", s.solve},
+                   {"refine", s.refine},
+                   {"bake", s.bake},
+                   {"upload", s.upload},
+                   {"deform", s.deform},
+                   {"download", s.download},
+                   {"write", s.write}}}};
+    json["edits"] = Json::array();
+    for (const EditReport& edit : report.edits) {
+        json["edits"].push_back(edit_json(edit));
+    }
+    json["warnings"] = report.warnings;
+    return json.dump(2) + "\n";
+}
+
+} // namespace anvil

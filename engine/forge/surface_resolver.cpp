@@ -1,0 +1,77 @@
+#include "engine/forge/surface_resolver.h"
+
+#include "engine/core/error.h"
+
+namespace anvil {
+
+namespace {
+
+std::string range(size_t count) {
+    return count == 0 ? "there are none" : "0 to " + std::to_string(count - 1);
+}
+
+} // namespace
+
+SurfacePoint SurfaceResolver::at_vertex(uint32_t vertex, const std::string& place) {
+    if (vertex >= mesh_.vertex_count()) {
+        throw InputError(place + ": vertex " + std::to_string(vertex) + " is out of range: the mesh has " +
+                         std::to_string(mesh_.vertex_count()) + " vertices (" + range(mesh_.vertex_count()) +
+                         ")");
+    }
+    return vertex_point(mesh_, vertex);
+}
+
+SurfacePoint SurfaceResolver::at_face(const FaceAddress& address, const std::string& place) const {
+    if (address.face >= mesh_.polygon_count()) {
+        throw InputError(place + ": face " + std::to_string(address.face) +
+                         " is out of range: the mesh has " + std::to_string(mesh_.polygon_count()) +
+                         " faces (" + range(mesh_.polygon_count()) + ")");
+    }
+    const size_t first = mesh_.first_triangle(address.face);
+    const size_t count = mesh_.first_triangle(address.face + size_t{1}) - first;
+    if (address.triangle >= count) {
+        throw InputError(place + ": triangle " + std::to_string(address.triangle) +
+                         " is out of range: face " + std::to_string(address.face) + " has " +
+                         std::to_string(count) + " (" + range(count) + ")");
+    }
+    const auto& b = address.barycentric;
+    SurfacePoint point;
+    point.triangle = static_cast<uint32_t>(first + address.triangle);
+    point.barycentric = Vec3(b[0], b[1], b[2]);
+    return snapped(point);
+}
+
+SurfacePoint SurfaceResolver::near(const Vec3& point, const std::string& place) {
+    if (!tree_) {
+        tree_ = std::make_unique<SearchTree>(positions_, mesh_.triangles);
+    }
+    const ClosestPoint found = tree_->closest(point);
+    if (!found.found()) {
+        throw InputError(place + ": there is no surface point near to it: the mesh has no triangle");
+    }
+    SurfacePoint result;
+    result.triangle = found.triangle;
+    result.barycentric = found.barycentric;
+    return snapped(result);
+}
+
+SurfacePoint SurfaceResolver::resolve(const SurfaceAddress& address, const std::string& place) {
+    if (const auto* vertex = std::get_if<VertexAddress>(&address)) {
+        return at_vertex(vertex->vertex, place);
+    }
+    if (const auto* face = std::get_if<FaceAddress>(&address)) {
+        return at_face(*face, place);
+    }
+    return near(std::get<NearestAddress>(address).point, place);
+}
+
+Vec3 SurfaceResolver::position_of(const SurfacePoint& point) const {
+    return position(mesh_, positions_, point);
+}
+
+std::vector<VertexWeight> SurfaceResolver::weights_of(const SurfacePoint& point) const {
+    const VertexWeights weights = vertex_weights(mesh_, point);
+    return {weights.begin(), weights.end()};
+}
+
+} // namespace anvil

@@ -1,0 +1,151 @@
+#include "engine/occluder/occluder_set.h"
+
+#include "engine/core/error.h"
+#include "engine/occluder/occluder_kernel.h"
+#include "engine/occluder/shape_nodes.h"
+
+#include <algorithm>
+
+namespace anvil {
+
+namespace {
+
+namespace k = kernel::f64;
+
+constexpr double steps_across = 128;   // analytic shapes: h = diagonal / 128 (mathematics of contact)
+constexpr double default_sigma = 0.05; // of the bounding radius
+constexpr int least_cells = 96;        // of the polygonization behind a re-distanced solid
+
+k::ShapeNode volume_node(const DistanceVolume& volume) {
+    k::ShapeNode node{};
+    node.kind = k::SHAPE_VOLUME;
+    node.size = volume.half_size;
+    node.extra = volume.voxel;
+    node.axis_x = Vec3(1, 0, 0);
+    node.axis_y = Vec3(0, 1, 0);
+    node.axis_z = Vec3(0, 0, 1);
+    node.origin = volume.centre;
+    node.scale = 1;
+    return node;
+}
+
+bool bounded(const Box& box) {
+    return is_finite(box.low) && is_finite(box.high);
+}
+
+/// Step width h and settle distance e of the model, in its own units times its scale.
+void set_contact(k::Occluder& occluder, const OccluderModel& model, double size, double mesh_diagonal) {
+    double h = (std::isfinite(size) ? size : mesh_diagonal) / steps_across;
+    occluder.settle = 0;
+    if (!model.volumes.empty()) {
+        h = model.volumes.front()->voxel * occluder.scale;
+        occluder.settle = model.volumes.front()->error * occluder.scale;
+    }
+    occluder.margin = h;
+    occluder.step = 0.5 * h;
+}
+
+void set_influence(OccluderSet& set, k::Occluder& occluder, const Influence& influence,
+                   double fallback_sigma) {
+    occluder.strength = influence.strength;
+    occluder.width = influence.sigma.value_or(fallback_sigma);
+    switch (influence.kind) {
+    case InfluenceKind::paper:
+        occluder.influence = k::INFLUENCE_PAPER;
+        set.paper = true;
+        break;
+    case InfluenceKind::hard:
+        occluder.influence = k::INFLUENCE_HARD;
+        break;
+    case InfluenceKind::soft:
+        occluder.influence = k::INFLUENCE_SOFT;
+        break;
+    case InfluenceKind::curve:
+        occluder.influence = k::INFLUENCE_CURVE;
+        occluder.strength = 1;
+        occluder.width = influence.width;
+        const ShapeFunction curve(influence.knots);
+        occluder.curve = {static_cast<uint32_t>(set.segments.size()),
+                          static_cast<uint32_t>(curve.segments().size())};
+        for (const auto& s : curve.segments()) {
+            set.segments.push_back({s.begin, s.c0, s.c1, s.c2, s.c3});
+        }
+        break;
+    }
+}
+
+SignedDistance in_world(const k::Occluder& occluder, const ExactDistance& exact, const Vec3& p) {
+    const Vec3 arm = (p - occluder.origin) / occluder.scale;
+    const Vec3 local(glm::dot(occluder.axis_x, arm), glm::dot(occluder.axis_y, arm),
+                     glm::dot(occluder.axis_z, arm));
+    const SignedDistance s = exact.at(local);
+    return {s.distance * occluder.scale,
+            occluder.axis_x * s.normal.x + occluder.axis_y * s.normal.y + occluder.axis_z * s.normal.z};
+}
+
+} // namespace
+
+OccluderModel build_model(const OccluderShape& shape, const Field& field, Progress& progress) {
+    OccluderModel model;
+    model.nodes = shape_nodes(shape);
+    model.exact = formula_distance(model.nodes);
+    model.bounds = model.exact->bounds();
+    if (field.kind == FieldKind::dense) {
+        if (model.nodes.size() > 1) {
+            model.exact = redistanced(model.exact, std::max(least_cells, static_cast<int>(field.resolution)));
+        }
+        model.volumes.push_back(
+            std::make_shared<DistanceVolume>(bake(*model.exact, field.resolution, progress)));
+        model.nodes = {volume_node(*model.volumes.front())};
+    }
+    return model;
+}
+
+void add_occluder(OccluderSet& set, const OccluderModel& model, const std::string& name,
+                  const Transform& pose, const Influence& influence, const OccluderScale& scale) {
+    if (set.volumes.size() + model.volumes.size() > k::MAX_VOLUMES) {
+        throw InputError("occluder \"" + name + "\": an edit can use at most " +
+                         std::to_string(k::MAX_VOLUMES) +
+                         " baked occluders: leave some out, or give analytic shapes no field");
+    }
+    const Placement place = placement(pose);
+    k::Occluder occluder{};
+    occluder.axis_x = place.axes[0];
+    occluder.axis_y = place.axes[1];
+    occluder.axis_z = place.axes[2];
+    occluder.origin = place.origin - scale.origin;
+    occluder.scale = place.scale;
+    occluder.first_node = static_cast<uint32_t>(set.nodes.size());
+    occluder.node_count = static_cast<uint32_t>(model.nodes.size());
+    const double size = bounded(model.bounds) ? model.bounds.diagonal() * place.scale : infinity;
+    set_contact(occluder, model, size, scale.diagonal);
+    const double extent = std::isfinite(size) ? 0.5 * size : scale.radius;
+    set_influence(set, occluder, influence, default_sigma * extent);
+
+    for (k::ShapeNode node : model.nodes) {
+        node.volume += static_cast<uint32_t>(set.volumes.size());
+        set.nodes.push_back(node);
+    }
+    set.volumes.insert(set.volumes.end(), model.volumes.begin(), model.volumes.end());
+    set.occluders.push_back(occluder);
+    set.exact.push_back(model.exact);
+    set.sizes.push_back(size);
+    set.names.push_back(name);
+}
+
+SignedDistance exact_distance(const OccluderSet& set, size_t occluder, const Vec3& p) {
+    return in_world(set.occluders[occluder], *set.exact[occluder], p);
+}
+
+SignedDistance exact_distance(const OccluderSet& set, const Vec3& p) {
+    SignedDistance nearest{infinity, Vec3(0)};
+    for (size_t i = 0; i < set.occluders.size(); ++i) {
+        const SignedDistance s = exact_distance(set, i, p);
+        if (s.distance < nearest.distance) {
+            nearest = s;
+        }
+    }
+    return nearest;
+}
+
+} // namespace anvil
