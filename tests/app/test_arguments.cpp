@@ -9,7 +9,7 @@ using namespace anvil;
 
 namespace {
 
-const std::vector<std::string> commands = {"info"};
+const std::vector<std::string> commands = {"info", "sample", "devices"};
 
 } // namespace
 

@@ -1,0 +1,71 @@
+#include "app/cli/command.h"
+#include "engine/core/error.h"
+#include "engine/gpu/device.h"
+
+#include <CLI/CLI.hpp>
+#include <optional>
+
+namespace anvil {
+
+namespace {
+
+std::string megabytes(uint64_t bytes) {
+    return std::to_string(bytes >> 20) + " MiB";
+}
+
+std::string device_text(const DeviceInfo& device, bool taken) {
+    std::string text =
+        std::to_string(device.index) + "    " + device.name + (taken ? "  <- auto" : "") + "\n";
+    const auto line = [&](const std::string& title, const std::string& value) {
+        text += "     " + title + std::string(18 - title.size(), ' ') + value + "\n";
+    };
+    line("kind", to_string(device.type));
+    line("driver", device.driver);
+    line("Vulkan", device.api_version);
+    line("memory", megabytes(device.memory_bytes));
+    line("storage binding", megabytes(device.max_storage_binding));
+    line("3D texture side", std::to_string(device.max_texture_3d));
+    line("pictures", device.graphics ? "yes" : "no");
+    for (const std::string& missing : device.missing) {
+        line("lacks", missing);
+    }
+    return text;
+}
+
+std::optional<size_t> taken_by_auto(const std::vector<DeviceInfo>& devices, Log& log) {
+    try {
+        return choose_device(devices, "auto");
+    } catch (const DeviceError& error) {
+        log.warn(error.what());
+        return std::nullopt;
+    }
+}
+
+std::vector<DeviceInfo> devices_or_none(Log& log) {
+    try {
+        return list_devices();
+    } catch (const DeviceError& error) {
+        log.warn(error.what());
+        return {};
+    }
+}
+
+} // namespace
+
+void add_devices(CLI::App& program, CommandContext& context) {
+    CLI::App* command = add_command(
+        program, "devices", "List the Vulkan devices and which one --device auto takes", "anvil devices");
+    command->callback([&context] {
+        const std::vector<DeviceInfo> devices = devices_or_none(context.log);
+        const std::optional<size_t> taken =
+            devices.empty() ? std::nullopt : taken_by_auto(devices, context.log);
+        std::string text;
+        for (size_t i = 0; i < devices.size(); ++i) {
+            text += device_text(devices[i], taken && *taken == i);
+        }
+        text += "cpu  double-precision reference, without Vulkan\n";
+        write_text("", text);
+    });
+}
+
+} // namespace anvil

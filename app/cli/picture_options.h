@@ -1,0 +1,32 @@
+// `--image`, `--size` and `--view`, the same for every command that draws.
+#pragma once
+
+#include "engine/gpu/device.h"
+#include "engine/gpu/offscreen_renderer.h"
+#include "engine/gpu/picture.h"
+
+#include <span>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace anvil {
+
+struct PictureOptions {
+    std::string path; ///< empty: no picture
+    std::string size_text;
+    std::string view_text;
+
+    bool wanted() const { return !path.empty(); }
+    PictureSize size() const; ///< @throws InputError
+    PictureView view() const; ///< @throws InputError
+};
+
+void add_picture_options(CLI::App& command, PictureOptions& options);
+
+/// Draws and writes the PNG file. @throws DeviceError, WriteError
+void write_picture(Device& device, std::span<const PictureSurface> surfaces, const PictureOptions& options);
+
+} // namespace anvil
