@@ -6,10 +6,20 @@ namespace anvil {
 
 namespace {
 
-uint64_t mix(uint64_t hash, double value) {
-    // Adding 0 turns -0 into 0. The constant is 2^64 over the golden ratio.
-    hash = (hash ^ std::bit_cast<uint64_t>(value + 0.0)) * 0x9e3779b97f4a7c15ULL;
-    return hash ^ (hash >> 29);
+// Round coordinates differ in their topmost bits only, the table's slot is the lowest: every bit has to reach
+// all others. Multiplying carries bits up (the constant is 2^64 over the golden ratio), shifting brings them
+// down.
+uint64_t mix(uint64_t hash, uint64_t bits) {
+    hash = (hash ^ bits) * 0x9e3779b97f4a7c15ULL;
+    return hash ^ (hash >> 32);
+}
+
+uint64_t hash_of(const Vec3& p) {
+    uint64_t hash = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        hash = mix(hash, std::bit_cast<uint64_t>(p[axis] + 0.0)); // -0 + 0 is 0
+    }
+    return mix(mix(hash, 0), 0);
 }
 
 } // namespace
@@ -21,7 +31,7 @@ std::vector<uint32_t> first_equal(std::span<const Vec3> positions) {
     std::vector<uint32_t> first(positions.size());
     for (size_t i = 0; i < positions.size(); ++i) {
         const Vec3& p = positions[i];
-        size_t slot = mix(mix(mix(0, p.x), p.y), p.z) & mask;
+        size_t slot = hash_of(p) & mask;
         while (table[slot] != no_index && positions[table[slot]] != p) {
             slot = (slot + 1) & mask;
         }

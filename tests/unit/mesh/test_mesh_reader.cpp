@@ -2,13 +2,12 @@
 #include "engine/mesh/health.h"
 #include "engine/mesh/mesh_reader.h"
 
+#include "tests/support/comma_locale.h"
 #include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
 
-#include <clocale>
 #include <fstream>
-#include <locale>
 #include <sstream>
 
 using namespace anvil;
@@ -231,16 +230,64 @@ TEST_CASE("What is no mesh file at all is an error that says so", "[mesh][reader
     CHECK_THAT(error_of("escape.obj", "v \x1b[31m 0 0\n"), !Catch::Contains("\x1b"));
 }
 
+TEST_CASE("Damage of the same kinds elsewhere is found as well", "[mesh][reader]") {
+    const auto ply = [](const std::string& vertex, const std::string& face) {
+        return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+               "z\n"
+               "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n" +
+               vertex + "\n" + face + "\n";
+    };
+    CHECK(error_of("a.ply", ply("0 1 0", "3 0 1 2")) == "no error");
+    CHECK_THAT(error_of("a.ply", ply("0 inf 0", "3 0 1 2")), Catch::Contains("line 12: y inf"));
+    CHECK_THAT(error_of("a.ply", ply("0 1", "3 0 1 2")), Catch::Contains("line 12: number is missing"));
+    CHECK_THAT(error_of("a.ply", ply("0 1 0", "3 0 1 -2")),
+               Catch::Contains("line 13: '-2' is no vertex index"));
+    CHECK_THAT(error_of("a.ply", ply("0 1 0", "3 0 1 4294967295")), Catch::Contains("line 13"));
+    CHECK_THAT(error_of("a.ply", ply("0 1 0", "3 0 1")), Catch::Contains("line 13"));
+    CHECK_THAT(error_of("a.ply", ply("0 1 0", "")), Catch::Contains("ends within its data"));
+    CHECK_THAT(error_of("a.ply", ply("0 1 0", "2 0 1")), Catch::Contains("no face"));
+    CHECK_THAT(error_of("a.ply", "ply\nelement vertex 0\nend_header\n"), Catch::Contains("no format"));
+    CHECK_THAT(error_of("a.ply", "ply\nformat ascii 1.0\nelement vertex -5\nend_header\n"),
+               Catch::Contains("line 3: element count -5 is negative"));
+    CHECK_THAT(error_of("a.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 nan 0\n"),
+               Catch::Contains("line 4: y coordinate nan"));
+    CHECK_THAT(error_of("a.stl", "solid a\nendsolid a\n"), Catch::Contains("no vertex"));
+    CHECK_THAT(error_of("a.stl", std::string(84, '\0')), Catch::Contains("no vertex"));
+    CHECK_THAT(error_of("a.stl", std::string(83, 'x')), Catch::Contains("84 bytes"));
+    std::string infinite = std::string(80, ' ') + std::string("\1\0\0\0", 4) + std::string(50, '\0');
+    infinite.replace(84 + 12, 4, std::string("\0\0\x80\x7f", 4));
+    CHECK_THAT(error_of("a.stl", infinite), Catch::Contains("byte 96"));
+    CHECK_THAT(error_of("a.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
+               Catch::Contains("after 1 of 2 faces"));
+    CHECK_THAT(error_of("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n999999 0 1 2\n"),
+               Catch::Contains("line 6"));
+    CHECK_THAT(error_of("a.off", "OFF BINARY\n"), Catch::Contains("binary OFF"));
+    CHECK_THAT(error_of("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1/1/1 2 3\n"), Catch::Contains("line 4"));
+    CHECK_THAT(error_of("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n"), Catch::Contains("line 4"));
+}
+
+TEST_CASE("A distant isolated vertex does not make the faces degenerate", "[mesh][reader]") {
+    Log log;
+    const Mesh mesh = read_text("a.obj", std::string(cube_obj) + "v 1e30 1e30 -1e30\n", log);
+    const MeshHealth health = examine(mesh);
+    CHECK(health.degenerate_triangles.count == 0);
+    CHECK(health.volume.value_or(0) == Approx(1).epsilon(1e-15));
+}
+
+TEST_CASE("Wrong texture and normal references cost the attribute, not the shape", "[mesh][reader]") {
+    Log log;
+    const Mesh mesh =
+        read_text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn nan nan nan\nf 1/7/1 2//1 3//1\n", log);
+    check_valid(mesh);
+    CHECK(mesh.corner_normals.values == std::vector<double>{0, 0, 0});
+    REQUIRE(log.warnings.size() == 1);
+    CHECK_THAT(log.warnings[0], Catch::Contains("2 texture coordinates or normals"));
+}
+
 TEST_CASE("Numbers are read the same in a locale with a decimal comma", "[mesh][reader]") {
-    const std::string before = std::setlocale(LC_ALL, nullptr);
-    const std::locale global;
-    if (std::setlocale(LC_ALL, "de_DE.UTF-8") != nullptr) {
-        std::locale::global(std::locale("de_DE.UTF-8"));
-    }
+    const CommaLocale commas;
     Log log;
     const Mesh mesh = read_text("a.obj", "v 0.5 -1.25e1 +3\nv 1e-400 0 .5\nv 1 0. 0\nf 1 2 3\n", log);
-    std::locale::global(global);
-    std::setlocale(LC_ALL, before.c_str());
     CHECK(mesh.positions == std::vector<Vec3>{{0.5, -12.5, 3}, {0, 0, 0.5}, {1, 0, 0}});
 }
 

@@ -3,13 +3,12 @@
 #include "engine/mesh/mesh_reader.h"
 #include "engine/mesh/mesh_writer.h"
 
+#include "tests/support/comma_locale.h"
 #include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
 
-#include <clocale>
 #include <fstream>
-#include <locale>
 #include <sstream>
 
 using namespace anvil;
@@ -282,16 +281,10 @@ TEST_CASE("Numbers are written the same in a locale with a decimal comma", "[mes
     for (const std::string& format : formats) {
         write_mesh(folder / ("a." + format), mesh, mesh.positions);
     }
-    const std::string before = std::setlocale(LC_ALL, nullptr);
-    const std::locale global;
-    if (std::setlocale(LC_ALL, "de_DE.UTF-8") != nullptr) {
-        std::locale::global(std::locale("de_DE.UTF-8"));
-    }
+    const CommaLocale commas;
     for (const std::string& format : formats) {
         write_mesh(folder / ("b." + format), mesh, mesh.positions);
     }
-    std::locale::global(global);
-    std::setlocale(LC_ALL, before.c_str());
     for (const std::string& format : formats) {
         CHECK(content_of(folder / ("a." + format)) == content_of(folder / ("b." + format)));
     }
