@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t grain = 512;
 // Beyond this many vertices quartering replaces remeshing: it is several times as fast and keeps the shapes.
-constexpr size_t most_remeshed = 40000;
+constexpr size_t most_remeshed = 16000;
 
 class Remesher {
   public:
@@ -49,11 +49,17 @@ void Remesher::run(double edge_length, int rounds) {
     }
     flip_edges();
     smooth();
+    smooth();
 }
 
 void Remesher::quarter() {
     net_.quarter();
-    for (int round = 0; round < 3; ++round) {
+    parallel_for(net_.vertex_slots(), grain, [&](size_t begin, size_t end) {
+        for (size_t v = begin; v < end; ++v) {
+            net_.positions[v] = project_(net_.positions[v]);
+        }
+    });
+    for (int round = 0; round < 2; ++round) {
         smooth();
     }
 }
@@ -235,7 +241,7 @@ Mesh remesh_to_count(const Mesh& mesh, const Projection& project, size_t vertice
     const double wish = static_cast<double>(base);
     double edge = std::sqrt(2 * remesher.area() / (std::sqrt(3.0) * wish));
     for (int attempt = 0; attempt < 8; ++attempt) {
-        remesher.run(edge, attempt == 0 ? 8 : 4);
+        remesher.run(edge, attempt == 0 ? 6 : 3);
         const double ratio = static_cast<double>(remesher.net().vertex_count()) / wish;
         if (std::abs(ratio - 1) < 0.03) {
             break;

@@ -68,8 +68,9 @@ const SmoothBody& bust_body() {
 
 Mesh bust(size_t vertices) {
     const SmoothBody& body = bust_body();
-    const Mesh rough = polygonize([&](const Vec3& p) { return body(p); },
-                                  Box{{-0.95, -0.1, -0.6}, {0.95, 1.75, 0.6}}, {110});
+    // Half the value keeps the bound that the ellipsoids' do not.
+    const Mesh rough = polygonize([&](const Vec3& p) { return 0.5 * body(p); },
+                                  Box{{-0.95, -0.1, -0.6}, {0.95, 1.75, 0.6}}, {110, false, true});
     return remesh_to_count(
         rough, [&](const Vec3& p) { return body.project(p); }, vertices);
 }

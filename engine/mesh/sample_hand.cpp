@@ -27,33 +27,35 @@ FingerLine finger(const Vec3& knuckle, double lean, double length, const std::ar
 
 void add_finger(SmoothBody& body, const FingerLine& line) {
     for (size_t k = 0; k < 3; ++k) {
-        // Bones are thinner in their middle, so that the joints stand out.
-        const Vec3 middle = 0.5 * (line.joints[k] + line.joints[k + 1]);
-        const double waist = 0.93 * 0.5 * (line.radii[k] + line.radii[k + 1]);
-        body.cone(line.joints[k], line.radii[k], middle, waist, 0.02);
-        body.cone(middle, waist, line.joints[k + 1], line.radii[k + 1], 0.02);
+        // Where two bones meet, the blend swells the finger a little: its joints.
+        body.cone(line.joints[k], line.radii[k], line.joints[k + 1], line.radii[k + 1], 0.016);
+    }
+}
+
+void add_palm(SmoothBody& body) {
+    body.group(0);
+    for (size_t k = 1; k < 5; ++k) {
+        const Vec3 knuckle = hand_fingers()[k].joints[0];
+        body.cone({0.35 * knuckle.x, 0.1, 0}, 0.06, knuckle, 0.05, 0.1);
+    }
+    body.ellipsoid({0.005, 0.3, -0.005}, {0.19, 0.25, 0.062}, 0.08);
+    body.cone({0.08, 0.11, 0.025}, 0.065, {0.155, 0.25, 0.04}, 0.06, 0.09);   // ball of the thumb
+    body.cone({-0.08, 0.12, 0.02}, 0.065, {-0.12, 0.28, 0.018}, 0.055, 0.09); // little finger's side
+    body.cone({0.2, 0.29, 0.035}, 0.035, {0.15, 0.37, 0.01}, 0.035, 0.06);    // skin between thumb and index
+    for (const double x : {-0.055, 0.0, 0.055}) {
+        body.cone({x, 0.09, 0}, 0.074, {x, -0.12, 0}, 0.074, 0.08); // wrist
+    }
+    for (size_t k = 1; k < 5; ++k) {
+        body.ball(hand_fingers()[k].joints[0] + Vec3(0, -0.005, -0.014), 0.042, 0.04); // knuckles on the back
     }
 }
 
 SmoothBody make_hand() {
     SmoothBody body;
-    const auto& lines = hand_fingers();
-    body.group(0);
-    for (size_t k = 1; k < 5; ++k) {
-        const Vec3 knuckle = lines[k].joints[0];
-        body.cone({0.3 * knuckle.x, 0.09, 0}, 0.062, knuckle, 0.052, 0.06);
-    }
-    body.cone({0.075, 0.1, 0.03}, 0.07, {0.15, 0.26, 0.035}, 0.06, 0.06);   // ball of the thumb
-    body.cone({-0.085, 0.1, 0.02}, 0.07, {-0.14, 0.3, 0.015}, 0.055, 0.06); // little finger's side
-    body.cone({0.19, 0.29, 0.03}, 0.035, {0.14, 0.38, 0.005}, 0.035, 0.05); // skin between thumb and index
-    body.cone({0.055, 0.1, 0}, 0.08, {0.055, -0.12, 0}, 0.078, 0.06);       // wrist
-    body.cone({-0.055, 0.1, 0}, 0.08, {-0.055, -0.12, 0}, 0.078, 0.06);
-    for (size_t k = 1; k < 5; ++k) {
-        body.ball(lines[k].joints[0] + Vec3(0, 0, -0.018), 0.046, 0.03); // knuckles on the back
-    }
+    add_palm(body);
     for (size_t k = 0; k < 5; ++k) {
-        body.group(k == 0 ? 0.05 : 0.04);
-        add_finger(body, lines[k]);
+        body.group(k == 0 ? 0.06 : 0.045);
+        add_finger(body, hand_fingers()[k]);
     }
     return body;
 }
@@ -62,13 +64,13 @@ SmoothBody make_hand() {
 
 const std::array<FingerLine, 5>& hand_fingers() {
     static const std::array<FingerLine, 5> fingers{
-        FingerLine{{Vec3(0.1, 0.12, 0.045), Vec3(0.235, 0.285, 0.075), Vec3(0.33, 0.4, 0.085),
-                    Vec3(0.395, 0.49, 0.08)},
-                   {0.065, 0.054, 0.047, 0.036}},
-        finger({0.165, 0.465, 0}, 6, 0.465, {0.047, 0.042, 0.037, 0.031}),
-        finger({0.055, 0.49, 0}, 0.5, 0.515, {0.048, 0.043, 0.038, 0.032}),
-        finger({-0.055, 0.47, 0}, -5, 0.475, {0.046, 0.041, 0.036, 0.031}),
-        finger({-0.155, 0.42, 0}, -13, 0.385, {0.041, 0.036, 0.031, 0.027}),
+        FingerLine{{Vec3(0.1, 0.12, 0.045), Vec3(0.235, 0.285, 0.075), Vec3(0.32, 0.395, 0.085),
+                    Vec3(0.38, 0.485, 0.08)},
+                   {0.07, 0.058, 0.05, 0.041}},
+        finger({0.165, 0.465, 0}, 8.5, 0.465, {0.052, 0.0475, 0.043, 0.038}),
+        finger({0.053, 0.485, 0}, 1, 0.515, {0.053, 0.0485, 0.044, 0.039}),
+        finger({-0.056, 0.465, 0}, -6.5, 0.48, {0.051, 0.0465, 0.042, 0.0375}),
+        finger({-0.156, 0.415, 0}, -16, 0.395, {0.046, 0.041, 0.037, 0.033}),
     };
     return fingers;
 }
@@ -80,8 +82,9 @@ const SmoothBody& hand_body() {
 
 Mesh hand(size_t vertices) {
     const SmoothBody& body = hand_body();
-    const Mesh rough = polygonize([&](const Vec3& p) { return body(p); },
-                                  Box{{-0.35, -0.25, -0.15}, {0.5, 1.05, 0.3}}, {110});
+    // Half the value keeps the bound that the ellipsoids' do not.
+    const Mesh rough = polygonize([&](const Vec3& p) { return 0.5 * body(p); },
+                                  Box{{-0.35, -0.25, -0.15}, {0.5, 1.05, 0.3}}, {110, false, true});
     return remesh_to_count(
         rough, [&](const Vec3& p) { return body.project(p); }, vertices);
 }

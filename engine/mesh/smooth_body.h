@@ -46,14 +46,27 @@ class SmoothBody {
         double length = 0;
         double radius = 0;
         double slope = 0;    ///< cone: growth of the radius per length along the axis
+        double lean = 0;     ///< cone: tangent of the angle between its sides and its axis
         glm::dmat3 frame{1}; ///< ellipsoid: from the world to its axes
+        // The value is at least |p - middle| * bound_slope - bound_offset.
+        Vec3 middle{0};
+        double bound_slope = 1;
+        double bound_offset = 0;
     };
     struct Group {
         double blend = 0;
         std::vector<Part> parts;
+        Box box; ///< of the cones
+        double swelling =
+            0; ///< the value is at least the box's distance minus this; infinite with ellipsoids
     };
 
-    static FieldValue value_of(const Part& part, const Vec3& p);
+    void add(const Part& part);
+    static bool is_far(const Part& part, const Vec3& p, double value);
+    static bool is_far(const Group& group, const Vec3& p, double value);
+
+    static FieldValue value_of_ellipsoid(const Part& part, const Vec3& p);
+    static FieldValue value_of_cone(const Part& part, const Vec3& p);
     static FieldValue value_of(const Group& group, const Vec3& p);
 
     std::vector<Group> groups_;

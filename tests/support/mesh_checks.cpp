@@ -1,7 +1,7 @@
 #include "tests/support/mesh_checks.h"
 
-#include <map>
 #include <numeric>
+#include <utility>
 
 namespace anvil::test {
 
@@ -76,7 +76,7 @@ size_t count_components(const Mesh& mesh, const std::vector<char>& used) {
 
 MeshFacts facts_of(const Mesh& mesh) {
     MeshFacts facts;
-    std::map<std::pair<uint32_t, uint32_t>, std::pair<int, int>> edges; // uses upwards, downwards
+    std::vector<std::pair<uint32_t, uint32_t>> edges; // from, to
     std::vector<char> used(mesh.vertex_count(), 0);
     facts.min_angle = 180;
     for (const Triangle& t : mesh.triangles) {
@@ -88,21 +88,26 @@ MeshFacts facts_of(const Mesh& mesh) {
             const uint32_t a = t[i];
             const uint32_t b = t[(i + 1) % 3];
             used[a] = 1;
-            auto& uses = edges[{std::min(a, b), std::max(a, b)}];
-            ++(a < b ? uses.first : uses.second);
+            edges.emplace_back(a, b);
             facts.min_angle = std::min(facts.min_angle, angle_at(p[i], p[(i + 1) % 3], p[(i + 2) % 3]));
         }
     }
-    for (const auto& [edge, uses] : edges) {
-        facts.boundary_edges += uses.first + uses.second == 1;
-        facts.non_manifold_edges += uses.first > 1 || uses.second > 1;
+    std::sort(edges.begin(), edges.end());
+    size_t count = 0;
+    for (size_t i = 0; i < edges.size(); ++i) {
+        const auto [a, b] = edges[i];
+        const bool back = std::binary_search(edges.begin(), edges.end(), std::pair(b, a));
+        const bool repeated = i > 0 && edges[i] == edges[i - 1];
+        facts.boundary_edges += !back && !repeated;
+        facts.non_manifold_edges += repeated;
+        count += (a < b || !back) && !repeated;
     }
     for (const char u : used) {
         facts.isolated_vertices += !u;
     }
     facts.bow_tie_vertices = count_bow_ties(mesh);
     facts.components = count_components(mesh, used);
-    facts.euler = static_cast<long>(mesh.vertex_count()) - static_cast<long>(edges.size()) +
+    facts.euler = static_cast<long>(mesh.vertex_count()) - static_cast<long>(count) +
                   static_cast<long>(mesh.triangles.size());
     return facts;
 }

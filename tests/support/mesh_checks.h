@@ -6,8 +6,8 @@
 namespace anvil::test {
 
 struct MeshFacts {
-    size_t boundary_edges = 0;       ///< edges with one triangle
-    size_t non_manifold_edges = 0;   ///< edges with three or more triangles, or two that run the same way
+    size_t boundary_edges = 0;       ///< edges that a triangle follows and none comes back
+    size_t non_manifold_edges = 0;   ///< repetitions of an edge in the same direction
     size_t bow_tie_vertices = 0;     ///< vertices whose triangles do not form one fan
     size_t isolated_vertices = 0;    ///< vertices without a triangle
     size_t degenerate_triangles = 0; ///< triangles that name a vertex twice or have no area

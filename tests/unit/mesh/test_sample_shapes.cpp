@@ -90,7 +90,7 @@ TEST_CASE("An icosphere of the classic counts is the subdivided icosahedron, wel
 }
 
 TEST_CASE("Samples are the same every time") {
-    for (const std::string& shape : sample_shape_names()) {
+    for (const char* shape : {"cube", "cylinder", "plane", "sphere", "torus"}) {
         const Mesh a = make_sample(shape, 1500);
         const Mesh b = make_sample(shape, 1500);
         CHECK(a.positions == b.positions);
