@@ -85,6 +85,8 @@ int main(int argc, char** argv) {
     program.require_subcommand(1);
     anvil::add_forge(program, context);
     anvil::add_info(program, context);
+    anvil::add_distance(program, context);
+    anvil::add_probe(program, context);
     anvil::add_sample(program, context);
     anvil::add_devices(program, context);
     anvil::add_later_commands(program);

@@ -9,7 +9,7 @@ using namespace anvil;
 
 namespace {
 
-const std::vector<std::string> commands = {"info", "sample", "devices"};
+const std::vector<std::string> commands = {"forge", "info", "distance", "probe", "sample", "devices"};
 
 } // namespace
 

@@ -1,0 +1,120 @@
+#include "engine/distance/distance.h"
+#include "app/cli/command.h"
+#include "app/cli/distance_picture.h"
+#include "engine/core/error.h"
+#include "engine/forge/surface_resolver.h"
+#include "engine/mesh/mesh_reader.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <memory>
+#include <optional>
+
+namespace anvil {
+
+namespace {
+
+struct Options {
+    std::string mesh;
+    std::vector<std::string> from;
+    std::optional<double> radius;
+    std::string metric = "geodesic";
+    std::string method = "auto";
+    std::string output;
+    PictureOptions picture;
+};
+
+void check(const Options& options) {
+    if (options.radius && !(*options.radius > 0)) {
+        throw InputError("--radius: found " + std::to_string(*options.radius) +
+                         "; give a length greater than 0");
+    }
+    if (options.picture.wanted()) {
+        options.picture.size();
+        options.picture.view();
+    }
+}
+
+DistanceMethod method_named(const std::string& name) {
+    if (name == "exact") {
+        return DistanceMethod::exact;
+    }
+    return name == "approximate" ? DistanceMethod::approximate : DistanceMethod::automatic;
+}
+
+std::vector<double> find_distances(const Mesh& mesh, const Options& options) {
+    SurfaceResolver resolver(mesh, mesh.positions);
+    std::vector<SurfacePoint> sources;
+    for (const std::string& text : options.from) {
+        sources.push_back(resolver.resolve(parse_address(text), "--from " + text));
+    }
+    const double radius = options.radius.value_or(infinity);
+    if (options.metric == "euclidean") {
+        std::vector<Vec3> points;
+        points.reserve(sources.size());
+        for (const SurfacePoint& source : sources) {
+            points.push_back(resolver.position_of(source));
+        }
+        return euclidean_distances(mesh.positions, points, radius).dense(mesh.vertex_count());
+    }
+    const GeodesicSolver solver(mesh, mesh.positions);
+    return solver.solve(sources, radius, method_named(options.method)).dense(mesh.vertex_count());
+}
+
+/// One per line, 17 significant digits: every double reads back as itself.
+std::string lines_of(const std::vector<double>& numbers) {
+    std::string text;
+    text.reserve(numbers.size() * 20);
+    char buffer[40];
+    for (const double x : numbers) {
+        const auto end = std::to_chars(buffer, buffer + sizeof buffer, x, std::chars_format::general, 17).ptr;
+        text.append(buffer, end);
+        text += '\n';
+    }
+    return text;
+}
+
+void run(const Options& options, CommandContext& context) {
+    check(options);
+    const Mesh mesh = read_mesh(options.mesh, context.log);
+    context.progress.report("distance", 0);
+    const std::vector<double> distances = find_distances(mesh, options);
+    context.progress.report("distance", 1);
+    if (!options.picture.wanted()) {
+        write_text(options.output, lines_of(distances));
+        return;
+    }
+    Device device;
+    draw_distances(device, mesh, distances, options.picture);
+    if (!options.output.empty()) {
+        write_text(options.output, lines_of(distances));
+    }
+}
+
+} // namespace
+
+void add_distance(CLI::App& program, CommandContext& context) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command =
+        add_command(program, "distance", "Distance of every vertex from points of the surface, one per line",
+                    "anvil distance hand.ply --from v:1082 --radius 0.2 -o distances.txt");
+    command->add_option("mesh", options->mesh, "Mesh file: .obj, .ply, .stl, .off")->required();
+    command
+        ->add_option(
+            "--from", options->from,
+            "v:INDEX, f:FACE[.TRIANGLE]:b0,b1,b2, or x,y,z (the nearest surface point); may be repeated")
+        ->required()
+        ->allow_extra_args(false);
+    command->add_option("--radius", options->radius, "No farther than this; inf beyond");
+    command->add_option("--metric", options->metric, "Along the surface, or straight through space")
+        ->check(CLI::IsMember({"geodesic", "euclidean"}))
+        ->capture_default_str();
+    command->add_option("--method", options->method, "How geodesic distances are found")
+        ->check(CLI::IsMember({"auto", "approximate", "exact"}))
+        ->capture_default_str();
+    command->add_option("-o,--output", options->output, "Text file in place of standard output");
+    add_picture_options(*command, options->picture);
+    command->callback([options, &context] { run(*options, context); });
+}
+
+} // namespace anvil
