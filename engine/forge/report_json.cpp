@@ -74,7 +74,8 @@ std::string report_json(const ForgeReport& report) {
         json["edits"].push_back(edit_json(edit));
     }
     json["warnings"] = report.warnings;
-    return json.dump(2) + "\n";
+    // A warning may name a file whose name is not UTF-8.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 } // namespace anvil
