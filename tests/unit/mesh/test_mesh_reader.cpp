@@ -151,7 +151,7 @@ TEST_CASE("Every legal variant of the cube loads clean: 8 vertices, 12 faces, cl
         Log log;
         const Mesh mesh = read_mesh(entry.path(), log);
         check_valid(mesh);
-        CHECK(log.warnings == std::vector<std::string>{});
+        CHECK_THAT(log.warnings, Catch::Equals(std::vector<std::string>{}));
         CHECK(mesh.vertex_count() == 8);
         CHECK(mesh.polygon_count() == 12);
         CHECK(examine(mesh).volume.value_or(0) == Approx(1).epsilon(1e-15));

@@ -75,7 +75,7 @@ Mesh rich_prism() {
 Mesh read_quietly(const fs::path& path) {
     Log log;
     Mesh mesh = read_mesh(path, log);
-    CHECK(log.warnings == std::vector<std::string>{});
+    CHECK_THAT(log.warnings, Catch::Equals(std::vector<std::string>{}));
     return mesh;
 }
 
