@@ -3,6 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 
+layout(local_size_x = 64) in; // deform_workgroup in engine/gpu/deform_pipeline.h
+
 #define real float
 #define real3 vec3
 #define real4 vec4
@@ -11,8 +13,6 @@
 
 #include "shared/invocation.glsl"
 #include "shared/kernel_types.h"
-
-layout(local_size_x = 64) in; // deform_workgroup in engine/gpu/deform_pipeline.h
 
 layout(push_constant, scalar) uniform Parameters { KernelParams params; };
 

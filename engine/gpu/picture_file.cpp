@@ -1,11 +1,9 @@
 // The only file that contains stb_image_write.
+#include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
 #include "engine/gpu/picture.h"
 
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <system_error>
+#include <string>
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
@@ -28,19 +26,7 @@ void write_png(const std::string& path, const Picture& picture) {
     if (encoded == 0) {
         throw WriteError("cannot encode the picture " + path);
     }
-    const std::string temporary = path + ".part";
-    std::ofstream file(temporary, std::ios::binary);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    std::error_code fault;
-    if (file) {
-        std::filesystem::rename(temporary, path, fault);
-    }
-    if (!file || fault) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw WriteError("cannot write " + path);
-    }
+    write_file_atomically(path, bytes);
 }
 
 } // namespace anvil

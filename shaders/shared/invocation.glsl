@@ -1,4 +1,4 @@
-// Which item an invocation works on.
+// Which item an invocation works on. The includer has declared its local_size_x before.
 #ifndef ANVIL_INVOCATION_GLSL
 #define ANVIL_INVOCATION_GLSL
 
