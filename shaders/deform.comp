@@ -14,7 +14,8 @@ layout(local_size_x = 64) in; // deform_workgroup in engine/gpu/deform_pipeline.
 #include "shared/invocation.glsl"
 #include "shared/kernel_types.h"
 
-layout(push_constant, scalar) uniform Parameters { KernelParams params; };
+layout(push_constant, scalar) uniform Parameters { KernelParams pushed; };
+KernelParams params; // `pushed`, with what this variant of the pipeline does not do set to zero
 
 layout(binding = 0, scalar) readonly buffer Points { vec3 points[]; };
 layout(binding = 1, scalar) readonly buffer Fields { float fields[]; };
@@ -26,6 +27,7 @@ layout(binding = 6, scalar) readonly buffer Nodes { ShapeNode nodes[]; };
 layout(binding = 7, scalar) readonly buffer Targets { vec3 targets[]; };
 layout(binding = 8, scalar) writeonly buffer Results { VertexResult results[]; };
 // Single bindings, not an array: its index would have to be the same in all invocations.
+// Single bindings, not an array: its index would have to be the same in all invocations.
 layout(binding = 9) uniform sampler3D volume_0;
 layout(binding = 10) uniform sampler3D volume_1;
 layout(binding = 11) uniform sampler3D volume_2;
@@ -35,30 +37,29 @@ layout(binding = 14) uniform sampler3D volume_5;
 layout(binding = 15) uniform sampler3D volume_6;
 layout(binding = 16) uniform sampler3D volume_7;
 
+// What this variant of the pipeline is for: what it does not need, no driver has to compile.
+layout(constant_id = 0) const uint has_occluders = 1u;
+layout(constant_id = 1) const uint volume_count = 8u;
+layout(constant_id = 2) const uint paper = 1u;
+
 /// Between the outermost voxel centres, as the field's own coordinates run.
 vec3 texture_place(ivec3 size, vec3 uvw) { return (uvw * vec3(size - 1) + 0.5) / vec3(size); }
 
-#define SAMPLE(volume_name) textureLod(volume_name, texture_place(textureSize(volume_name, 0), uvw), 0.0)
+#define SAMPLE_IF(number, name)                                                                                        \
+    if (volume_count > number && volume == number) {                                                                   \
+        return textureLod(name, texture_place(textureSize(name, 0), uvw), 0.0);                                        \
+    }
 
 vec4 volume_texel(uint volume, vec3 uvw) {
-    switch (volume) {
-    case 0u:
-        return SAMPLE(volume_0);
-    case 1u:
-        return SAMPLE(volume_1);
-    case 2u:
-        return SAMPLE(volume_2);
-    case 3u:
-        return SAMPLE(volume_3);
-    case 4u:
-        return SAMPLE(volume_4);
-    case 5u:
-        return SAMPLE(volume_5);
-    case 6u:
-        return SAMPLE(volume_6);
-    default:
-        return SAMPLE(volume_7);
-    }
+    SAMPLE_IF(0u, volume_0)
+    SAMPLE_IF(1u, volume_1)
+    SAMPLE_IF(2u, volume_2)
+    SAMPLE_IF(3u, volume_3)
+    SAMPLE_IF(4u, volume_4)
+    SAMPLE_IF(5u, volume_5)
+    SAMPLE_IF(6u, volume_6)
+    SAMPLE_IF(7u, volume_7)
+    return vec4(0.0);
 }
 
 #include "shared/shape_function.h"
@@ -67,6 +68,9 @@ vec4 volume_texel(uint volume, vec3 uvw) {
 
 void main() {
     uint i = invocation_index();
+    params = pushed;
+    params.occluder_count = has_occluders != 0u ? params.occluder_count : 0u;
+    params.paper = paper;
     if (i < params.point_count) {
         results[i] = deformed(i);
     }

@@ -32,7 +32,8 @@ vk::raii::DescriptorSetLayout make_set_layout(DeviceState& device, const std::ve
 } // namespace
 
 ComputeKernel::ComputeKernel(DeviceState& device, std::span<const uint32_t> spirv,
-                             std::vector<ResourceKind> kinds, uint32_t parameter_bytes, uint32_t workgroup)
+                             std::vector<ResourceKind> kinds, uint32_t parameter_bytes, uint32_t workgroup,
+                             std::span<const uint32_t> constants)
     : kinds_(std::move(kinds)), parameter_bytes_(parameter_bytes),
       workgroup_(workgroup), max_groups_{device.limits.maxComputeWorkGroupCount[0],
                                          device.limits.maxComputeWorkGroupCount[1]} {
@@ -49,9 +50,19 @@ ComputeKernel::ComputeKernel(DeviceState& device, std::span<const uint32_t> spir
                                                       .pPushConstantRanges = &range});
         const vk::raii::ShaderModule module =
             device.device.createShaderModule({.codeSize = spirv.size_bytes(), .pCode = spirv.data()});
-        const vk::ComputePipelineCreateInfo info{
-            .stage = {.stage = vk::ShaderStageFlagBits::eCompute, .module = *module, .pName = "main"},
-            .layout = *layout_};
+        std::vector<vk::SpecializationMapEntry> entries;
+        for (uint32_t i = 0; i < constants.size(); ++i) {
+            entries.push_back({i, static_cast<uint32_t>(i * sizeof(uint32_t)), sizeof(uint32_t)});
+        }
+        const vk::SpecializationInfo specialization{.mapEntryCount = static_cast<uint32_t>(entries.size()),
+                                                    .pMapEntries = entries.data(),
+                                                    .dataSize = constants.size_bytes(),
+                                                    .pData = constants.data()};
+        const vk::ComputePipelineCreateInfo info{.stage = {.stage = vk::ShaderStageFlagBits::eCompute,
+                                                           .module = *module,
+                                                           .pName = "main",
+                                                           .pSpecializationInfo = &specialization},
+                                                 .layout = *layout_};
         pipeline_ = device.device.createComputePipeline(nullptr, info);
     });
 }

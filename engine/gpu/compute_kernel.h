@@ -26,10 +26,11 @@ enum class ResourceKind { storage_buffer, volume_texture };
 
 class ComputeKernel {
   public:
-    /// `workgroup`: local_size_x of the shader. @throws DeviceError if the device rejects the pipeline;
-    /// InternalError if `parameter_bytes` exceeds 128, which is all that every device grants.
+    /// `workgroup`: local_size_x of the shader; `constants`: values of its specialization constants 0, 1, ...
+    /// @throws DeviceError if the device rejects the pipeline; InternalError if `parameter_bytes` exceeds
+    /// 128, which is all that every device grants.
     ComputeKernel(DeviceState& device, std::span<const uint32_t> spirv, std::vector<ResourceKind> kinds,
-                  uint32_t parameter_bytes, uint32_t workgroup);
+                  uint32_t parameter_bytes, uint32_t workgroup, std::span<const uint32_t> constants = {});
 
     /// Dispatches at least `count` invocations, in one or two dimensions as the device's limits want it: the
     /// shader takes its index from shaders/shared/invocation.glsl and returns where it is >= count.

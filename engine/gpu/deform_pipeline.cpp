@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace anvil {
 
@@ -20,10 +21,27 @@ std::vector<ResourceKind> deform_resources() {
 
 } // namespace
 
+DeformVariant DeformVariant::of(const OccluderSet& occluders) {
+    const auto volumes = static_cast<uint32_t>(occluders.volumes.size());
+    return {!occluders.empty(), occluders.paper, volumes == 0 ? 0 : std::bit_ceil(volumes)};
+}
+
 DeformPipeline::DeformPipeline(std::shared_ptr<Device> device)
-    : device_(std::move(device)), kernel_(device_->state(), deform_comp, deform_resources(),
-                                          sizeof(kernel::f32::KernelParams), deform_workgroup),
-      no_volume_(device_->state(), {1, 1, 1}, std::array<float, 4>{}) {}
+    : device_(std::move(device)), no_volume_(device_->state(), {1, 1, 1}, std::array<float, 4>{}) {}
+
+const ComputeKernel& DeformPipeline::kernel(const DeformVariant& variant) {
+    for (const auto& [known, kernel] : kernels_) {
+        if (known == variant) {
+            return *kernel;
+        }
+    }
+    const std::array<uint32_t, 3> constants{variant.occluders ? 1U : 0U, variant.volumes,
+                                            variant.paper ? 1U : 0U};
+    kernels_.emplace_back(variant, std::make_unique<ComputeKernel>(
+                                       device_->state(), deform_comp, deform_resources(),
+                                       sizeof(kernel::f32::KernelParams), deform_workgroup, constants));
+    return *kernels_.back().second;
+}
 
 std::shared_ptr<const VolumeTexture>
 DeformPipeline::texture(const std::shared_ptr<const DistanceVolume>& volume) {

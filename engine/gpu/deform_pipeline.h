@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/gpu/compute_kernel.h"
-#include "engine/occluder/distance_volume.h"
+#include "engine/occluder/occluder_set.h"
 
 #include <memory>
 #include <utility>
@@ -13,6 +13,18 @@ namespace anvil {
 
 inline constexpr uint32_t deform_workgroup = 64; ///< local_size_x of shaders/deform.comp
 
+/// What a variant of the kernel is compiled for. Drivers inline everything: lavapipe takes seconds for what
+/// is not needed.
+struct DeformVariant {
+    bool occluders = false;
+    bool paper = false;
+    uint32_t volumes = 0; ///< sampled fields: 0, 1, 2, 4 or MAX_VOLUMES
+
+    /// The least variant for an edit's occluders.
+    static DeformVariant of(const OccluderSet& occluders);
+    bool operator==(const DeformVariant&) const = default;
+};
+
 class DeformPipeline {
   public:
     /// @throws DeviceError
@@ -20,7 +32,9 @@ class DeformPipeline {
 
     DeviceState& device() const { return device_->state(); }
     const DeviceInfo& info() const { return device_->info(); }
-    const ComputeKernel& kernel() const { return kernel_; }
+
+    /// Compiled at the first call; stays as long as this object. @throws DeviceError
+    const ComputeKernel& kernel(const DeformVariant& variant);
 
     /// The field as a texture; uploaded once as long as both live. @throws DeviceError
     std::shared_ptr<const VolumeTexture> texture(const std::shared_ptr<const DistanceVolume>& volume);
@@ -31,7 +45,7 @@ class DeformPipeline {
     using CachedTexture = std::pair<std::weak_ptr<const DistanceVolume>, std::weak_ptr<const VolumeTexture>>;
 
     std::shared_ptr<Device> device_;
-    ComputeKernel kernel_;
+    std::vector<std::pair<DeformVariant, std::unique_ptr<ComputeKernel>>> kernels_;
     VolumeTexture no_volume_;
     std::vector<CachedTexture> textures_;
 };

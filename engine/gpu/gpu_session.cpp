@@ -93,8 +93,8 @@ DeformInput header_of(const DeformInput& input) {
 
 GpuSession::GpuSession(std::shared_ptr<DeformPipeline> pipeline, const DeformInput& input,
                        uint64_t chunk_bytes)
-    : pipeline_(std::move(pipeline)), header_(header_of(input)), point_count_(input.points.size()),
-      commands_(pipeline_->device()) {
+    : pipeline_(std::move(pipeline)), kernel_(pipeline_->kernel(DeformVariant::of(input.occluders))),
+      header_(header_of(input)), point_count_(input.points.size()), commands_(pipeline_->device()) {
     check_sizes(input, still(input.handle_count));
     if (input.occluders.volumes.size() > kernel::f32::MAX_VOLUMES) {
         throw InternalError("an edit has more sampled fields than the kernel binds");
@@ -179,7 +179,7 @@ void GpuSession::update(const DeformMotion& motion) {
         for (const Chunk& chunk : chunks_) {
             params.point_count = chunk.count;
             params.field_stride = chunk.count;
-            pipeline_->kernel().record(commands, chunk.resources, params, chunk.count);
+            kernel_.record(commands, chunk.resources, params, chunk.count);
         }
     });
     commands_.submit();

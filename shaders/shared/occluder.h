@@ -172,24 +172,28 @@ Probe combined(uint operation, Probe a, Probe b) {
     return a.distance >= b.distance ? a : b;
 }
 
-// The shape of `count` nodes from `first` at p, both in the occluder's space.
+// The shape of `count` nodes from `first` at p, both in the occluder's space. One call of leaf_probe, and the top
+// of the stack apart from it: a device compiles the leaf once a call and keeps a single leaf out of memory.
 Probe shape_probe(uint first, uint count, real3 p) {
-    if (count == 1u) {
-        return leaf_probe(nodes[first], p);
-    }
-    Probe stack[MAX_SHAPE_STACK];
-    uint top = 0u;
+    Probe below[MAX_SHAPE_STACK];
+    Probe top;
+    top.distance = 0.0;
+    top.normal = real3(0.0);
+    uint depth = 0u;
     for (uint i = 0u; i < count; ++i) {
         ShapeNode node = nodes[first + i];
         if (node.kind >= SHAPE_UNION) {
-            stack[top - 2u] = combined(node.kind, stack[top - 2u], stack[top - 1u]);
-            --top;
+            --depth;
+            top = combined(node.kind, below[depth], top);
         } else {
-            stack[top] = leaf_probe(node, p);
-            ++top;
+            if (i > 0u) {
+                below[depth] = top;
+                ++depth;
+            }
+            top = leaf_probe(node, p);
         }
     }
-    return stack[0];
+    return top;
 }
 
 // Occluder `index` at p, both relative to the mesh's origin.
