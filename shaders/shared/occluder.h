@@ -100,6 +100,9 @@ Probe cone_probe(real3 p, real radius, real half_height) {
                          : revolved(p, radial, -base, real(0.0), real(-1.0));
     }
     if (to_mantle) {
+        if (along > 0.0 && along < 1.0) { // not from mantle_radial / mantle: at the surface that is rounding alone
+            return revolved(p, radial, mantle, normal_radial, normal_axial);
+        }
         return mantle > 0.0 ? revolved(p, radial, mantle, mantle_radial / mantle, mantle_axial / mantle)
                             : revolved(p, radial, real(0.0), normal_radial, normal_axial);
     }
