@@ -48,8 +48,8 @@ struct DeviceOptions {
     std::string choice = "auto";
     /// Khronos validation layer with synchronization checks; also switched on by ANVIL_VALIDATION=1.
     bool validation = false;
-    std::vector<std::string> instance_extensions; ///< wanted beside ours, e.g. for a window's surface
-    std::vector<std::string> device_extensions;   ///< likewise, e.g. VK_KHR_swapchain
+    std::vector<std::string> instance_extensions = {}; ///< wanted beside ours, e.g. for a window's surface
+    std::vector<std::string> device_extensions = {};   ///< likewise, e.g. VK_KHR_swapchain
 };
 
 /// Owned or borrowed. Used by one thread at a time. Objects made from it must go before it.

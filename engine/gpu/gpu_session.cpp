@@ -2,9 +2,9 @@
 
 #include "engine/core/error.h"
 #include "engine/deform/narrow.h"
+#include "engine/gpu/guards.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace anvil {
 
@@ -13,7 +13,6 @@ namespace {
 using kernel::f32::VertexResult;
 
 constexpr uint32_t guard_count = 64; // a whole workgroup beyond the end
-constexpr std::byte guard_byte{0xA5};
 
 template <class Wide>
 Buffer narrow_buffer(DeviceState& device, std::span<const Wide> values) {
@@ -63,16 +62,8 @@ Buffer start_distance_buffer(DeviceState& device, const DeformInput& input, size
 Buffer result_buffer(DeviceState& device, uint32_t count) {
     Buffer buffer(device, (uint64_t{count} + guard_count) * sizeof(VertexResult),
                   vk::BufferUsageFlagBits::eStorageBuffer, MemoryUse::device);
-    const std::vector<std::byte> guards(guard_count * sizeof(VertexResult), guard_byte);
-    buffer.write(uint64_t{count} * sizeof(VertexResult), guards);
+    buffer.write(uint64_t{count} * sizeof(VertexResult), make_guards(guard_count * sizeof(VertexResult)));
     return buffer;
-}
-
-void check_guards(std::span<const VertexResult> guards) {
-    const auto bytes = std::as_bytes(guards);
-    if (!std::all_of(bytes.begin(), bytes.end(), [](std::byte b) { return b == guard_byte; })) {
-        throw InternalError("the deformation kernel wrote behind the end of its results");
-    }
 }
 
 /// A motion that moves nothing, to check the sizes of an input before there is a motion.
@@ -201,7 +192,9 @@ std::vector<PointResult> GpuSession::download() {
     for (const Chunk& chunk : chunks_) {
         raw.resize(chunk.count + guard_count);
         chunk.results.read(0, std::as_writable_bytes(std::span(raw)));
-        check_guards(std::span(raw).subspan(chunk.count));
+        if (!guards_intact(std::as_bytes(std::span(raw).subspan(chunk.count)))) {
+            throw InternalError("the deformation kernel wrote behind the end of its results");
+        }
         for (size_t i = 0; i < chunk.count; ++i) {
             results.push_back({Vec3(raw[i].displacement), raw[i].steps, raw[i].samples, raw[i].flags});
         }

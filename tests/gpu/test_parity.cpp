@@ -1,0 +1,157 @@
+// Parity checks execution; that the formulas are right is for the tests of the reference to show.
+#include "engine/core/error.h"
+#include "engine/gpu/gpu_backend.h"
+#include "engine/gpu/selftest.h"
+#include "tests/gpu/gpu_test.h"
+
+using namespace anvil;
+
+namespace {
+
+SelftestCase case_named(const std::string& name) {
+    for (SelftestCase& test : selftest_cases()) {
+        if (test.name == name) {
+            return std::move(test);
+        }
+    }
+    throw std::runtime_error("no case " + name);
+}
+
+std::vector<PointResult> run(Backend& backend, const SelftestCase& test) {
+    const auto session = backend.prepare(test.input);
+    session->update(test.motion);
+    return session->download();
+}
+
+bool same_bits(const std::vector<PointResult>& a, const std::vector<PointResult>& b) {
+    if (a.size() != b.size()) {
+        return false;
+    }
+    for (size_t i = 0; i < a.size(); ++i) {
+        if (a[i].displacement != b[i].displacement || a[i].steps != b[i].steps ||
+            a[i].samples != b[i].samples || a[i].flags != b[i].flags) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// The reference with one result spoiled.
+class SpoiledBackend final : public Backend {
+  public:
+    explicit SpoiledBackend(Vec3 fault) : fault_(fault) {}
+    std::unique_ptr<DeformSession> prepare(const DeformInput& input) override {
+        return std::make_unique<Session>(cpu_->prepare(input), fault_);
+    }
+    std::string device_name() const override { return "spoiled"; }
+    std::string driver_name() const override { return "spoiled"; }
+
+  private:
+    struct Session final : DeformSession {
+        Session(std::unique_ptr<DeformSession> inner, Vec3 fault) : inner_(std::move(inner)), fault_(fault) {}
+        void update(const DeformMotion& motion) override { inner_->update(motion); }
+        void wait() override { inner_->wait(); }
+        std::vector<PointResult> download() override {
+            std::vector<PointResult> results = inner_->download();
+            results.at(results.size() / 2).displacement += fault_;
+            return results;
+        }
+        std::unique_ptr<DeformSession> inner_;
+        Vec3 fault_;
+    };
+    std::unique_ptr<Backend> cpu_ = make_cpu_backend();
+    Vec3 fault_;
+};
+
+} // namespace
+
+TEST_CASE("the GPU agrees with the double reference on every case of the selftest") {
+    const CheckedDevice device;
+    const auto backend = make_gpu_backend(device.shared());
+    for (const SelftestCase& test : selftest_cases()) {
+        const SelftestResult result = run_selftest_case(*backend, test);
+        INFO(test.name << ": worst " << result.worst << ", allowed " << result.allowed);
+        CHECK(result.points == test.input.points.size());
+        CHECK(result.non_finite == 0);
+        CHECK(result.deviating == 0);
+        CHECK(result.penetrating == 0);
+        CHECK(result.passed());
+    }
+}
+
+TEST_CASE("the selftest sees a point that is off and a point that is not finite") {
+    const SelftestCase test = case_named("sphere, soft");
+    SpoiledBackend exact(Vec3(0));
+    CHECK(run_selftest_case(exact, test).passed());
+    SpoiledBackend off(Vec3(2 * 5e-6 * test.lipschitz * test.diagonal, 0, 0));
+    CHECK(run_selftest_case(off, test).deviating == 1);
+    CHECK_FALSE(run_selftest_case(off, test).passed());
+    SpoiledBackend not_finite(Vec3(std::numeric_limits<double>::quiet_NaN(), 0, 0));
+    CHECK(run_selftest_case(not_finite, test).non_finite == 1);
+    CHECK_FALSE(run_selftest_case(not_finite, test).passed());
+}
+
+TEST_CASE("points outside every region do not move at all") {
+    const CheckedDevice device;
+    for (const PointResult& result : run(*make_gpu_backend(device.shared()), case_named("empty region"))) {
+        REQUIRE(result.displacement == Vec3(0));
+    }
+}
+
+TEST_CASE("work split into many chunks gives the same bits") {
+    const CheckedDevice device;
+    const auto whole = make_gpu_backend(device.shared());
+    // 10 kB hold about 360 of the 3001 points.
+    const auto split = make_gpu_backend(device.shared(), {.chunk_bytes = 10000});
+    for (const char* name : {"blend, 16 handles", "torus, soft", "sampled field"}) {
+        const SelftestCase test = case_named(name);
+        CHECK(same_bits(run(*whole, test), run(*split, test)));
+    }
+}
+
+TEST_CASE("the same update gives the same bits again, whatever came between") {
+    const CheckedDevice device;
+    const auto backend = make_gpu_backend(device.shared());
+    const SelftestCase test = case_named("two occluders");
+    const auto session = backend->prepare(test.input);
+    session->update(test.motion);
+    const auto first = session->download();
+    DeformMotion longer = test.motion; // more path samples: the targets' buffer grows
+    longer.targets.insert(longer.targets.begin(), test.motion.targets.begin(), test.motion.targets.end());
+    session->update(longer);
+    session->wait();
+    session->update(test.motion);
+    session->update(test.motion); // an update need not be waited for
+    CHECK(same_bits(first, session->download()));
+    CHECK(same_bits(first, session->download()));
+}
+
+TEST_CASE("a session outlives its back end") {
+    const CheckedDevice device;
+    const SelftestCase test = case_named("sphere, hard");
+    auto backend = make_gpu_backend(device.shared());
+    const auto expected = run(*backend, test);
+    const auto session = backend->prepare(test.input);
+    backend.reset();
+    session->update(test.motion);
+    CHECK(same_bits(expected, session->download()));
+}
+
+TEST_CASE("a session refuses sizes that do not fit and a result before its first update") {
+    const CheckedDevice device;
+    const auto backend = make_gpu_backend(device.shared());
+    SelftestCase test = case_named("sphere, hard");
+    const auto session = backend->prepare(test.input);
+    CHECK_THROWS_AS(session->download(), InternalError);
+    DeformMotion motion = test.motion;
+    motion.targets.pop_back();
+    CHECK_THROWS_AS(session->update(motion), InternalError);
+    test.input.fields.pop_back();
+    CHECK_THROWS_AS(backend->prepare(test.input), InternalError);
+}
+
+TEST_CASE("buffers too small for one point are an error, not an endless split") {
+    const CheckedDevice device;
+    const auto backend = make_gpu_backend(device.shared(), {.chunk_bytes = 100});
+    CHECK_THROWS_AS(backend->prepare(case_named("sphere, hard").input), DeviceError);
+}
