@@ -14,6 +14,16 @@ constexpr size_t grain = 512;
 // Beyond this many vertices quartering replaces remeshing: it is several times as fast and keeps the shapes.
 constexpr size_t most_remeshed = 16000;
 
+// Cosine of the angle from its neighbours' mean normal to which a triangle may turn.
+constexpr double most_turned = 0.4;
+// Sine of the angle below which a triangle is mended (25 degrees).
+constexpr double thin = 0.42;
+
+double cosine(const Vec3& a, const Vec3& b) {
+    const double lengths = std::sqrt(glm::dot(a, a) * glm::dot(b, b));
+    return lengths > 0 ? glm::dot(a, b) / lengths : -1;
+}
+
 class Remesher {
   public:
     Remesher(const Mesh& mesh, const Projection& project) : net_(mesh), project_(project) {}
@@ -28,7 +38,11 @@ class Remesher {
     void collapse_short(double shortest, double longest);
     void flip_edges();
     void smooth();
+    void mend();
 
+    bool mend_face(uint32_t h);
+    double least_sine(const Vec3& a, const Vec3& b, const Vec3& c) const;
+    double least_sine(uint32_t h) const;
     bool collapse_folds(uint32_t h, double longest) const;
     int valence_gain(uint32_t h) const;
     bool flip_folds(uint32_t h) const;
@@ -50,6 +64,7 @@ void Remesher::run(double edge_length, int rounds) {
     flip_edges();
     smooth();
     smooth();
+    mend();
 }
 
 void Remesher::quarter() {
@@ -59,9 +74,9 @@ void Remesher::quarter() {
             net_.positions[v] = project_(net_.positions[v]);
         }
     });
-    for (int round = 0; round < 2; ++round) {
-        smooth();
-    }
+    smooth();
+    smooth();
+    mend();
 }
 
 double Remesher::area() const {
@@ -124,6 +139,8 @@ int Remesher::valence_gain(uint32_t h) const {
            cost(d, 1);
 }
 
+/// True if flipping would turn a triangle away from the two that are there, worse than they are turned
+/// already.
 bool Remesher::flip_folds(uint32_t h) const {
     const uint32_t g = net_.twin(h);
     const auto& p = net_.positions;
@@ -131,14 +148,9 @@ bool Remesher::flip_folds(uint32_t h) const {
     const Vec3 b = p[net_.to(h)];
     const Vec3 c = p[net_.apex(h)];
     const Vec3 d = p[net_.apex(g)];
-    const Vec3 before = net_.face_normal(h) + net_.face_normal(g);
-    const double scale = 0.3 * glm::length(before);
-    for (const Vec3& after : {glm::cross(d - c, b - c), glm::cross(c - d, a - d)}) {
-        if (!(glm::dot(before, after) > scale * glm::length(after))) {
-            return true;
-        }
-    }
-    return false;
+    const Vec3 mean = glm::cross(c - d, a - b);
+    return std::min(cosine(mean, glm::cross(d - c, b - c)), cosine(mean, glm::cross(c - d, a - d))) <
+           std::min({most_turned, cosine(mean, net_.face_normal(h)), cosine(mean, net_.face_normal(g))});
 }
 
 void Remesher::flip_edges() {
@@ -172,14 +184,18 @@ Vec3 Remesher::smoothed(uint32_t v) const {
     return project_(p + pull - glm::dot(pull, normal) / length2 * normal);
 }
 
+/// True if moving v would turn a triangle at it away from their mean, worse than one is turned already.
 bool Remesher::move_folds(uint32_t v, const Vec3& p) const {
-    bool folds = !is_finite(p);
+    Vec3 mean(0);
+    net_.around(v, [&](uint32_t h) { mean += net_.face_normal(h); });
+    double before = most_turned;
+    double after = is_finite(p) ? 1 : -1;
     net_.around(v, [&](uint32_t h) {
-        const Vec3 before = net_.face_normal(h);
-        const Vec3 after = glm::cross(net_.positions[net_.to(h)] - p, net_.positions[net_.apex(h)] - p);
-        folds = folds || !(glm::dot(before, after) > 0.5 * glm::length(before) * glm::length(after));
+        before = std::min(before, cosine(mean, net_.face_normal(h)));
+        after = std::min(after, cosine(mean, glm::cross(net_.positions[net_.to(h)] - p,
+                                                        net_.positions[net_.apex(h)] - p)));
     });
-    return folds;
+    return after < before;
 }
 
 void Remesher::smooth() {
@@ -194,6 +210,60 @@ void Remesher::smooth() {
         }
     });
     net_.positions = std::move(moved);
+}
+
+/// Sine of a triangle's least angle.
+double Remesher::least_sine(const Vec3& a, const Vec3& b, const Vec3& c) const {
+    const double ab = glm::distance(a, b);
+    const double bc = glm::distance(b, c);
+    const double ca = glm::distance(c, a);
+    // The least angle lies between the two longer edges.
+    const double product = ab * bc * ca / std::min({ab, bc, ca});
+    return product > 0 ? glm::length(glm::cross(b - a, c - a)) / product : 0;
+}
+
+double Remesher::least_sine(uint32_t h) const {
+    return least_sine(net_.positions[net_.from(h)], net_.positions[net_.to(h)], net_.positions[net_.apex(h)]);
+}
+
+/// Flips the thin face's longest edge if that widens both triangles, else collapses its shortest.
+bool Remesher::mend_face(uint32_t h) {
+    std::array<uint32_t, 3> edges{h, h + 1, h + 2};
+    std::sort(edges.begin(), edges.end(),
+              [&](uint32_t a, uint32_t b) { return net_.edge_length(a) > net_.edge_length(b); });
+    const uint32_t longest = edges[0];
+    const auto& p = net_.positions;
+    const Vec3& c = p[net_.apex(longest)];
+    const Vec3& d = p[net_.apex(net_.twin(longest))];
+    const double before = std::min(least_sine(h), least_sine(net_.twin(longest)));
+    const double after =
+        std::min(least_sine(c, d, p[net_.to(longest)]), least_sine(d, c, p[net_.from(longest)]));
+    if (after > before && net_.can_flip(longest) && !flip_folds(longest)) {
+        net_.flip(longest);
+        return true;
+    }
+    const uint32_t shortest = edges[2];
+    for (const uint32_t edge : {shortest, net_.twin(shortest)}) {
+        if (net_.can_collapse(edge) && !collapse_folds(edge, 1.2 * net_.edge_length(longest))) {
+            net_.collapse(edge);
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Takes out the few triangles that are still thin, as quartering a fold of the surface leaves them.
+void Remesher::mend() {
+    for (int pass = 0; pass < 12; ++pass) {
+        size_t mended = 0;
+        for (uint32_t h = 0; h < net_.half_edge_count(); h += 3) {
+            mended += net_.is_alive(h) && least_sine(h) < thin && mend_face(h);
+        }
+        if (mended == 0) {
+            break;
+        }
+        smooth();
+    }
 }
 
 } // namespace

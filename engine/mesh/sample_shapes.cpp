@@ -38,6 +38,7 @@ std::string all_names() {
 const std::vector<std::string>& sample_shape_names() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> result;
+        result.reserve(shapes.size());
         for (const Shape& shape : shapes) {
             result.emplace_back(shape.name);
         }
@@ -46,21 +47,21 @@ const std::vector<std::string>& sample_shape_names() {
     return names;
 }
 
-Mesh make_sample(const std::string& name, size_t vertices) {
-    const auto* const shape =
-        std::find_if(shapes.begin(), shapes.end(), [&](const Shape& s) { return s.name == name; });
-    if (shape == shapes.end()) {
-        throw InputError("there is no sample shape \"" + name + "\"; the shapes are " + all_names());
+Mesh make_sample(const std::string& shape, size_t vertices) {
+    const auto* const known =
+        std::find_if(shapes.begin(), shapes.end(), [&](const Shape& s) { return s.name == shape; });
+    if (known == shapes.end()) {
+        throw InputError("there is no sample shape \"" + shape + "\"; the shapes are " + all_names());
     }
-    if (vertices < shape->least) {
-        throw InputError("sample " + name + ": " + std::to_string(vertices) +
-                         " vertices are too few; give at least " + std::to_string(shape->least));
+    if (vertices < known->least) {
+        throw InputError("sample " + shape + ": " + std::to_string(vertices) +
+                         " vertices are too few; give at least " + std::to_string(known->least));
     }
     if (vertices > max_sample_vertices) {
-        throw InputError("sample " + name + ": " + std::to_string(vertices) +
+        throw InputError("sample " + shape + ": " + std::to_string(vertices) +
                          " vertices are too many; give at most " + std::to_string(max_sample_vertices));
     }
-    return shape->make(vertices);
+    return known->make(vertices);
 }
 
 } // namespace anvil

@@ -33,8 +33,8 @@ class SmoothBody {
     FieldValue evaluate(const Vec3& p) const;
     double operator()(const Vec3& p) const { return evaluate(p).value; }
 
-    /// The point of the surface reached from p by Newton's steps along the gradient.
-    Vec3 project(const Vec3& p) const;
+    /// The point of the surface reached from `start` by Newton's steps along the gradient.
+    Vec3 project(const Vec3& start) const;
 
   private:
     struct Part {

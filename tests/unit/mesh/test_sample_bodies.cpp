@@ -55,7 +55,7 @@ Vec3 on_line(const sample::FingerLine& line, double t) {
 
 TEST_CASE("Hand and bust are closed, manifold, of one piece without handles, well shaped, at any count") {
     for (const std::string shape : {"hand", "bust"}) {
-        for (const size_t wish : {500, 777, 2000, 5001, 40000}) {
+        for (const size_t wish : {500, 687, 2000, 5001, 27277}) {
             const Mesh mesh = make_sample(shape, wish);
             const test::MeshFacts facts = test::facts_of(mesh);
             CAPTURE(shape, wish, mesh.vertex_count());
@@ -64,7 +64,7 @@ TEST_CASE("Hand and bust are closed, manifold, of one piece without handles, wel
             CHECK(facts.euler == 2);
             CHECK(facts.components == 1);
             CHECK(facts.volume > 0);
-            CHECK(facts.min_angle > 15);
+            CHECK(facts.min_angle > 20);
         }
     }
 }
