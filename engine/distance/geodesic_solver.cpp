@@ -1,13 +1,15 @@
 #include "engine/core/error.h"
 #include "engine/distance/distance.h"
+#include "engine/distance/exact_windows.h"
 #include "engine/distance/front_seeds.h"
 #include "engine/distance/source_seeds.h"
-#include "engine/distance/triangle_graph.h"
-
-#include <mutex>
+#include "engine/distance/workspace_pool.h"
 
 namespace anvil {
 namespace {
+
+// Up to this many vertices an exact field takes some 20 ms: a drag starts at once.
+constexpr size_t small_region = 5000;
 
 TriangleGraph checked_graph(const Mesh& mesh, std::span<const Vec3> positions) {
     if (positions.size() != mesh.vertex_count()) {
@@ -28,33 +30,60 @@ FanTable flipped_table(TriangleGraph graph) {
     return make_fan_table(graph, origins);
 }
 
+/// The final part of a run, in world units.
+template <typename Workspace>
+DistanceField collect(const Workspace& workspace, double bound, double unit, DistanceMethod method) {
+    DistanceField field;
+    field.method = method;
+    for (const uint32_t vertex : workspace.reached()) {
+        const double distance = workspace.distance(vertex);
+        if (distance <= bound) {
+            field.vertices.push_back(vertex);
+            field.distances.push_back(distance * unit);
+        }
+    }
+    return field;
+}
+
 } // namespace
 
-/// Workspaces wait in a pool: as many exist as calls ever ran at once.
 struct GeodesicSolver::State {
-    explicit State(TriangleGraph prepared) : graph(std::move(prepared)), table(flipped_table(graph)) {}
+    explicit State(TriangleGraph prepared) : graph(std::move(prepared)), fans(flipped_table(graph)) {}
 
-    std::unique_ptr<VertexFronts> borrow() {
-        {
-            const std::scoped_lock lock(mutex);
-            if (!idle.empty()) {
-                std::unique_ptr<VertexFronts> kept = std::move(idle.back());
-                idle.pop_back();
-                return kept;
-            }
-        }
-        return std::make_unique<VertexFronts>(table);
+    DistanceField approximate(std::span<const Seed> seeds, double bound) {
+        std::unique_ptr<VertexFronts> fronts = front_pool.borrow([&] { return VertexFronts(fans); });
+        fronts->run(front_seeds(graph, fans, seeds), bound);
+        DistanceField field = collect(*fronts, bound, graph.unit, DistanceMethod::approximate);
+        front_pool.give_back(std::move(fronts));
+        return field;
     }
 
-    void give_back(std::unique_ptr<VertexFronts> workspace) {
-        const std::scoped_lock lock(mutex);
-        idle.push_back(std::move(workspace));
+    /// @return false if the surface has too many windows.
+    bool exact(std::span<const Seed> seeds, double bound, DistanceField& field) {
+        std::call_once(windows_prepared, [&] { window_table = make_window_table(graph); });
+        std::unique_ptr<ExactWindows> windows =
+            window_pool.borrow([&] { return ExactWindows(graph, window_table); });
+        const bool done = windows->run(seeds, bound);
+        if (done) {
+            field = collect(*windows, bound, graph.unit, DistanceMethod::exact);
+        }
+        window_pool.give_back(std::move(windows));
+        return done;
+    }
+
+    bool deserves_exact(const DistanceField& field) const {
+        return field.vertices.size() <= small_region ||
+               std::any_of(field.vertices.begin(), field.vertices.end(), [&](uint32_t v) {
+                   return fans.fans[v].bend == Fan::tangled && !graph.sides_leaving(v).empty();
+               });
     }
 
     TriangleGraph graph; ///< as the mesh has it: sources refer to its triangles
-    FanTable table;
-    std::mutex mutex;
-    std::vector<std::unique_ptr<VertexFronts>> idle;
+    FanTable fans;
+    std::once_flag windows_prepared;
+    WindowTable window_table;
+    WorkspacePool<VertexFronts> front_pool;
+    WorkspacePool<ExactWindows> window_pool;
 };
 
 GeodesicSolver::GeodesicSolver(const Mesh& mesh, std::span<const Vec3> positions)
@@ -68,22 +97,16 @@ DistanceField GeodesicSolver::solve(std::span<const SurfacePoint> sources, doubl
     if (!(radius >= 0)) {
         throw InputError("distances: the radius is " + std::to_string(radius) + "; give a number >= 0");
     }
-    if (method == DistanceMethod::exact) {
-        throw InputError("distances: the method \"exact\" is not there yet; use \"auto\" or \"approximate\"");
-    }
     const std::vector<Seed> seeds = seed_sources(state_->graph, sources);
     const double bound = radius / state_->graph.unit;
-    std::unique_ptr<VertexFronts> marching = state_->borrow();
-    marching->run(front_seeds(state_->graph, state_->table, seeds), bound);
     DistanceField field;
-    for (const uint32_t vertex : marching->reached()) {
-        const double distance = marching->distance(vertex);
-        if (distance <= bound) {
-            field.vertices.push_back(vertex);
-            field.distances.push_back(distance * state_->graph.unit);
-        }
+    if (method == DistanceMethod::exact && state_->exact(seeds, bound, field)) {
+        return field;
     }
-    state_->give_back(std::move(marching));
+    field = state_->approximate(seeds, bound);
+    if (method == DistanceMethod::automatic && state_->deserves_exact(field)) {
+        state_->exact(seeds, bound, field);
+    }
     return field;
 }
 

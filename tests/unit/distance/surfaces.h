@@ -97,6 +97,87 @@ inline Mesh sphere(int times) {
     return from_triangles(std::move(p), std::move(t));
 }
 
+/// Straight distances to the nearest source.
+inline Vec3 place(const Mesh& mesh, const SurfacePoint& point);
+inline std::vector<double> straight(const Mesh& mesh, const std::vector<SurfacePoint>& sources) {
+    std::vector<double> distances;
+    for (const Vec3& p : mesh.positions) {
+        double nearest = infinity;
+        for (const SurfacePoint& source : sources) {
+            nearest = std::min(nearest, glm::length(p - place(mesh, source)));
+        }
+        distances.push_back(nearest);
+    }
+    return distances;
+}
+
+/// A strip of steps of length 1, folded by a right angle at each of `columns` columns.
+inline Mesh folded_strip(const Mesh& flat, int columns) {
+    return bent(flat, columns, [](int i) {
+        const std::array<std::pair<int, int>, 4> turn = {{{0, 0}, {1, 0}, {1, 1}, {2, 1}}};
+        return std::pair<double, double>(2 * (i / 4) + turn[i % 4].first, turn[i % 4].second);
+    });
+}
+
+/// A closed prism over the unit circle, its rows `height` / rows apart; vertex (column, row) has the index
+/// row * (columns + 1) + column; those of the last column are isolated.
+inline Mesh prism(int columns, int rows, double height) {
+    const double side = 2 * std::sin(M_PI / columns);
+    Mesh mesh = bent(plane(columns, rows, columns * side, height, 0), columns, [&](int i) {
+        const double angle = 2 * M_PI * (i % columns) / columns;
+        return std::pair<double, double>(std::cos(angle), std::sin(angle));
+    });
+    for (Triangle& t : mesh.triangles) {
+        for (uint32_t& v : t) {
+            v = v % (columns + 1) == static_cast<uint32_t>(columns) ? v - columns : v;
+        }
+    }
+    return mesh;
+}
+
+/// Three square sheets of n x n unit cells on one edge x = 0: any two of them unfold to a flat rectangle.
+struct Sheets {
+    Mesh mesh;
+    int n;
+    uint32_t index(int sheet, int i, int j) const {
+        return static_cast<uint32_t>(i == 0 ? j : (n + 1) + (sheet * n + i - 1) * (n + 1) + j);
+    }
+};
+inline Sheets three_sheets(int n) {
+    Sheets sheets{{}, n};
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+    for (int j = 0; j <= n; ++j) {
+        positions.emplace_back(0, j, 0);
+    }
+    for (int sheet = 0; sheet < 3; ++sheet) {
+        const double angle = 2.1 * sheet;
+        for (int i = 1; i <= n; ++i) {
+            for (int j = 0; j <= n; ++j) {
+                positions.emplace_back(i * std::cos(angle), j, i * std::sin(angle));
+            }
+        }
+        for (int i = 0; i < n; ++i) {
+            for (int j = 0; j < n; ++j) {
+                const auto v = [&](int a, int b) { return sheets.index(sheet, a, b); };
+                triangles.push_back({v(i, j), v(i + 1, j), v(i + 1, j + 1)});
+                triangles.push_back({v(i, j), v(i + 1, j + 1), v(i, j + 1)});
+            }
+        }
+    }
+    sheets.mesh = from_triangles(std::move(positions), std::move(triangles));
+    return sheets;
+}
+
+/// Smooth bumps on a square, with many saddles.
+inline Mesh bumps(int cells, double height, unsigned seed = 5) {
+    Mesh mesh = plane(cells, cells, 1, 1, 0.2, seed);
+    for (Vec3& p : mesh.positions) {
+        p.z = height * std::sin(9 * p.x + 1) * std::cos(8 * p.y);
+    }
+    return mesh;
+}
+
 inline std::vector<double> solve(const Mesh& mesh, std::vector<SurfacePoint> sources,
                                  double radius = infinity,
                                  DistanceMethod method = DistanceMethod::approximate) {

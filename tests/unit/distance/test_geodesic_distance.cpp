@@ -9,18 +9,6 @@ using namespace anvil::surfaces;
 
 namespace {
 
-std::vector<double> straight(const Mesh& mesh, const std::vector<SurfacePoint>& sources) {
-    std::vector<double> distances;
-    for (const Vec3& p : mesh.positions) {
-        double nearest = infinity;
-        for (const SurfacePoint& source : sources) {
-            nearest = std::min(nearest, glm::length(p - place(mesh, source)));
-        }
-        distances.push_back(nearest);
-    }
-    return distances;
-}
-
 // Fronts march in float: each update adds a few roundings of 6e-8, and a gain below 1e-5 that no longer moves
 // the front is not taken.
 constexpr double float_roundings = 1.2e-5;
@@ -63,12 +51,7 @@ TEST_CASE("several sources give the minimum of the single ones in a plane") {
 TEST_CASE("a folded strip has the distances of the flat one") {
     const int columns = 40, rows = 8;
     const Mesh flat = plane(columns, rows, 40, 8, 0);
-    const Mesh folded = bent(flat, columns, [](int i) {
-        // Every column turns by a right angle, up and down in turn.
-        const std::array<std::pair<int, int>, 4> turn = {{{0, 0}, {1, 0}, {1, 1}, {2, 1}}};
-        return std::pair<double, double>(2 * (i / 4) + turn[i % 4].first, turn[i % 4].second - (i / 4) * 0.0);
-    });
-    // Columns 3 -> 4 step from (2,1) to (2,0): all steps have length 1.
+    const Mesh folded = folded_strip(flat, columns);
     const std::vector<SurfacePoint> source = {{37, {0.3, 0.3, 0.4}, no_index}};
     CHECK(worst_relative(solve(folded, source), solve(flat, source), 1) < float_roundings);
     CHECK(worst_relative(solve(flat, source), straight(flat, source), 1) < 5e-3);
@@ -77,16 +60,7 @@ TEST_CASE("a folded strip has the distances of the flat one") {
 TEST_CASE("distances on a prism are those of its unrolled sides") {
     const int columns = 32, rows = 12;
     const double side = 2 * std::sin(M_PI / columns);
-    Mesh mesh = bent(plane(columns, rows, columns * side, 2, 0), columns, [&](int i) {
-        const double angle = 2 * M_PI * (i % columns) / columns;
-        return std::pair<double, double>(std::cos(angle), std::sin(angle));
-    });
-    // Close it: the last column is the first.
-    for (Triangle& t : mesh.triangles) {
-        for (uint32_t& v : t) {
-            v = v % (columns + 1) == static_cast<uint32_t>(columns) ? v - columns : v;
-        }
-    }
+    const Mesh mesh = prism(columns, rows, 2);
     const uint32_t source = 5 * (columns + 1) + 3;
     const std::vector<double> found = solve(mesh, {vertex_source(source)});
     double worst = 0;
@@ -173,38 +147,15 @@ TEST_CASE("what no path reaches stays infinite, isolated vertices included") {
 }
 
 TEST_CASE("three sheets on one edge are each reached as the flat pair that they form") {
-    // Sheet 0 and each of the others make a flat plane when unfolded around the shared edge x = 0.
     const int n = 8;
-    std::vector<Vec3> positions;
-    std::vector<Triangle> triangles;
-    const auto index = [&](int sheet, int i, int j) {
-        return static_cast<uint32_t>(i == 0 ? j : (n + 1) + (sheet * n + i - 1) * (n + 1) + j);
-    };
-    for (int j = 0; j <= n; ++j) {
-        positions.emplace_back(0, j, 0);
-    }
-    for (int sheet = 0; sheet < 3; ++sheet) {
-        const double angle = 2.1 * sheet;
-        for (int i = 1; i <= n; ++i) {
-            for (int j = 0; j <= n; ++j) {
-                positions.emplace_back(i * std::cos(angle), j, i * std::sin(angle));
-            }
-        }
-        for (int i = 0; i < n; ++i) {
-            for (int j = 0; j < n; ++j) {
-                triangles.push_back({index(sheet, i, j), index(sheet, i + 1, j), index(sheet, i + 1, j + 1)});
-                triangles.push_back({index(sheet, i, j), index(sheet, i + 1, j + 1), index(sheet, i, j + 1)});
-            }
-        }
-    }
-    const Mesh mesh = from_triangles(positions, triangles);
-    const std::vector<double> found = solve(mesh, {vertex_source(index(0, 3, 4))});
+    const Sheets sheets = three_sheets(n);
+    const std::vector<double> found = solve(sheets.mesh, {vertex_source(sheets.index(0, 3, 4))});
     double worst = 0;
     for (int sheet = 0; sheet < 3; ++sheet) {
         for (int i = 0; i <= n; ++i) {
             for (int j = 0; j <= n; ++j) {
                 const double expected = std::hypot(sheet == 0 ? i - 3 : i + 3, j - 4);
-                worst = std::max(worst, std::abs(found[index(sheet, i, j)] - expected));
+                worst = std::max(worst, std::abs(found[sheets.index(sheet, i, j)] - expected));
             }
         }
     }
