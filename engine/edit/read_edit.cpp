@@ -6,15 +6,10 @@ namespace anvil {
 
 namespace {
 
-// Exact distances are an issue of their own: once they stand, "exact" moves into the accepted words.
-constexpr bool exact_distances_stand = false;
-
 DistanceMethod read_method(const JsonReader& method) {
-    const std::pair<const char*, DistanceMethod> automatic{"auto", DistanceMethod::automatic};
-    const std::pair<const char*, DistanceMethod> approximate{"approximate", DistanceMethod::approximate};
-    const std::pair<const char*, DistanceMethod> exact{"exact", DistanceMethod::exact};
-    return exact_distances_stand ? method.word<DistanceMethod>({automatic, approximate, exact})
-                                 : method.word<DistanceMethod>({automatic, approximate}, {"exact"});
+    return method.word<DistanceMethod>({{"auto", DistanceMethod::automatic},
+                                        {"approximate", DistanceMethod::approximate},
+                                        {"exact", DistanceMethod::exact}});
 }
 
 Metric read_metric(const JsonReader& metric) {
