@@ -10,17 +10,17 @@ namespace anvil {
 
 namespace {
 
-/// A length that is nothing for this scene: what double rounding does to the smallest occluder, and more.
-double rounding_length(const OccluderSet& set) {
-    double size = infinity;
-    for (double s : set.sizes) {
-        size = std::min(size, s);
+/// Depth that is reported as penetration: 1e-6 of the smallest occluder's size.
+double reported_depth(const OccluderSet& set) {
+    double depth = infinity;
+    for (size_t k = 0; k < set.occluders.size(); ++k) {
+        depth = std::min(depth, 1e3 * touching_distance(set, k));
     }
-    return std::isfinite(size) ? 1e-12 * size : 0;
+    return depth;
 }
 
-double tolerance(const OccluderSet& set) {
-    return 1e6 * rounding_length(set);
+double least_touching_distance(const OccluderSet& set) {
+    return 1e-3 * reported_depth(set);
 }
 
 /// The point of the segment from `end` back to `start` nearest to the end that is outside, to 2^-40 of it.
@@ -78,11 +78,11 @@ double dip(const OccluderSet& set, const Vec3& a, const Vec3& b, const Vec3& c) 
 
 size_t finish_contact(const OccluderSet& set, std::span<const Vec3> starts, const std::vector<bool>& inside,
                       std::span<Vec3> ends) {
-    const double rounding = rounding_length(set);
+    const double rounding = least_touching_distance(set);
     std::atomic<size_t> moved{0};
     parallel_for(ends.size(), 512, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
-            if (!inside[i] && exact_distance(set, ends[i]).distance < -rounding) {
+            if (!inside[i] && ends[i] != starts[i] && exact_distance(set, ends[i]).distance < -rounding) {
                 ends[i] = outside(set, starts[i], ends[i], rounding);
                 ++moved;
             }
@@ -93,7 +93,7 @@ size_t finish_contact(const OccluderSet& set, std::span<const Vec3> starts, cons
 
 void measure_vertices(const OccluderSet& set, std::span<const Vec3> ends, const std::vector<bool>& inside,
                       ContactReport& report) {
-    const double limit = tolerance(set);
+    const double limit = reported_depth(set);
     std::mutex mutex;
     parallel_for(ends.size(), 512, [&](size_t begin, size_t end) {
         size_t count = 0;
@@ -111,7 +111,7 @@ void measure_vertices(const OccluderSet& set, std::span<const Vec3> ends, const 
 
 void measure_triangles(const OccluderSet& set, std::span<const Vec3> positions,
                        std::span<const Triangle> triangles, ContactReport& report) {
-    const double limit = tolerance(set);
+    const double limit = reported_depth(set);
     std::mutex mutex;
     parallel_for(triangles.size(), 256, [&](size_t begin, size_t end) {
         size_t count = 0;

@@ -24,7 +24,8 @@ struct ContactReport {
 
 /// Moves each point of `ends` that is inside an occluder, although its `start` was outside, to the closest
 /// point of the surface; where that fails (wedges), back along the segment to its start until it is outside.
-/// `inside[i]`: the point started inside and is left alone. All relative to the local origin.
+/// `inside[i]`: the point started inside and is left alone; so is one that did not move. All relative to the
+/// local origin.
 /// @return how many were moved.
 size_t finish_contact(const OccluderSet& set, std::span<const Vec3> starts, const std::vector<bool>& inside,
                       std::span<Vec3> ends);

@@ -18,6 +18,9 @@ double start_distance(const OccluderSet& set, kernel::f64::OccluderKernel& kerne
         if (occluder.settle > 0 && distance < 2 * occluder.margin) {
             distance = exact_distance(set, k, p).distance;
         }
+        if (distance < 0 && distance >= -touching_distance(set, k)) {
+            distance = 0;
+        }
         if (distance - occluder.margin < best_clearance) {
             best_clearance = distance - occluder.margin;
             best = distance;

