@@ -97,14 +97,18 @@ void measure_vertices(const OccluderSet& set, std::span<const Vec3> ends, const 
     std::mutex mutex;
     parallel_for(ends.size(), 512, [&](size_t begin, size_t end) {
         size_t count = 0;
+        size_t touching = 0;
         double deepest = 0;
         for (size_t i = begin; i < end; ++i) {
-            const double depth = inside[i] ? 0 : -exact_distance(set, ends[i]).distance;
+            const double distance = exact_distance(set, ends[i]).distance;
+            const double depth = inside[i] ? 0 : -distance;
             deepest = std::max(deepest, depth);
             count += depth > limit ? 1 : 0;
+            touching += std::abs(distance) <= 1e3 * limit ? 1 : 0;
         }
         const std::lock_guard lock(mutex);
         report.penetrating_vertices += count;
+        report.contact_vertices += touching;
         report.max_penetration = std::max(report.max_penetration, deepest);
     });
 }

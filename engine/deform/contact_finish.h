@@ -19,7 +19,8 @@ struct ContactReport {
     size_t penetrating_triangles = 0;
     double deepest_dip = 0; ///< deepest sampled point of a penetrating triangle
     size_t finished_on_cpu = 0;
-    size_t contact_vertices = 0; ///< end within 1e-3 of the occluder's size of its surface, or were held
+    size_t contact_vertices =
+        0; ///< of the region, that end within 1e-3 of the occluder's size of its surface
 };
 
 /// Moves each point of `ends` that is inside an occluder, although its `start` was outside, to the closest
@@ -30,7 +31,7 @@ struct ContactReport {
 size_t finish_contact(const OccluderSet& set, std::span<const Vec3> starts, const std::vector<bool>& inside,
                       std::span<Vec3> ends);
 
-/// Fills penetrating_vertices and max_penetration of the points as they are.
+/// Fills penetrating_vertices, max_penetration and contact_vertices of the points as they are.
 void measure_vertices(const OccluderSet& set, std::span<const Vec3> ends, const std::vector<bool>& inside,
                       ContactReport& report);
 

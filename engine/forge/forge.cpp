@@ -171,7 +171,8 @@ class Forger {
         const std::vector<Vec3> unfinished = ends;
         if (!input.occluders.empty()) {
             report.contact = ContactReport{};
-            count_contact(results, inside, *report.contact);
+            report.contact->started_inside =
+                static_cast<size_t>(std::count(inside.begin(), inside.end(), true));
             if (!input.occluders.paper) {
                 report.contact->finished_on_cpu = finish_contact(input.occluders, input.points, inside, ends);
             }
@@ -186,14 +187,6 @@ class Forger {
             position = end;
         }
         count_steps(results, report);
-    }
-
-    static void count_contact(const std::vector<PointResult>& results, const std::vector<bool>& inside,
-                              ContactReport& report) {
-        for (size_t i = 0; i < results.size(); ++i) {
-            report.started_inside += inside[i] ? 1 : 0;
-            report.contact_vertices += (results[i].flags & kernel::f64::VERTEX_TOUCHED) != 0 ? 1 : 0;
-        }
     }
 
     void count_steps(const std::vector<PointResult>& results, EditReport& report) {
