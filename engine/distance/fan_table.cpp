@@ -35,6 +35,7 @@ class Builder {
     FanTable build() {
         const size_t count = graph_.vertex_count();
         table_.fans.resize(count + 1);
+        number_breadth_first();
         parallel_for(graph_.corner_vertex.size(), 1 << 14, [&](size_t begin, size_t end) {
             for (size_t side = begin; side < end; ++side) {
                 corners_[side] = corner_at(graph_, static_cast<uint32_t>(side));
@@ -48,7 +49,7 @@ class Builder {
         uint32_t place = 0;
         for (size_t v = 0; v < count; ++v) {
             table_.fans[v].first_spoke = place;
-            place += spoke_count(static_cast<uint32_t>(v));
+            place += spoke_count(table_.mesh_vertex[v]);
         }
         table_.fans[count].first_spoke = place;
         table_.spokes.resize(place);
@@ -62,6 +63,30 @@ class Builder {
     }
 
   private:
+    void number_breadth_first() {
+        const auto count = static_cast<uint32_t>(graph_.vertex_count());
+        std::vector<uint32_t>& order = table_.mesh_vertex;
+        std::vector<uint32_t>& place = table_.table_vertex;
+        order.reserve(count);
+        place.assign(count, no_index);
+        const auto number = [&](uint32_t vertex) {
+            if (place[vertex] == no_index) {
+                place[vertex] = static_cast<uint32_t>(order.size());
+                order.push_back(vertex);
+            }
+        };
+        for (uint32_t start = 0; start < count; ++start) {
+            size_t done = order.size();
+            number(start);
+            for (; done < order.size(); ++done) {
+                for (const uint32_t side : graph_.sides_leaving(order[done])) {
+                    number(graph_.to(side));
+                    number(graph_.apex(side));
+                }
+            }
+        }
+    }
+
     uint32_t spoke_count(uint32_t vertex) const {
         const auto corners = static_cast<uint32_t>(graph_.sides_leaving(vertex).size());
         switch (shapes_[vertex].kind) {
@@ -92,7 +117,7 @@ class Builder {
             side = graph_.twin(TriangleGraph::previous(side));
         } while (side < TriangleGraph::tangled && side != shape.first);
         const double total = direction - start;
-        Fan& fan = table_.fans[vertex];
+        Fan& fan = table_.fans[table_.table_vertex[vertex]];
         fan.total = closed ? static_cast<float>(total) : Fan::open;
         fan.bend =
             closed ? static_cast<float>(std::clamp((total - 2 * std::numbers::pi) / full_bend, 0.0, 1.0)) : 1;
@@ -123,7 +148,7 @@ class Builder {
     }
 
     Spoke leaving_spoke(uint32_t side) const {
-        return {graph_.to(side),
+        return {table_.table_vertex[graph_.to(side)],
                 static_cast<float>(graph_.side_length[side]),
                 directions_[side],
                 back_direction(side),
@@ -134,7 +159,7 @@ class Builder {
     /// The spoke at the counterclockwise end of the corner that `side` leaves.
     Spoke end_spoke(uint32_t side) const {
         const uint32_t arriving = TriangleGraph::previous(side);
-        return {graph_.from(arriving),
+        return {table_.table_vertex[graph_.from(arriving)],
                 static_cast<float>(graph_.side_length[arriving]),
                 static_cast<float>(directions_[side] + angle(side)),
                 directions_[arriving],
@@ -143,7 +168,7 @@ class Builder {
     }
 
     void fill(uint32_t vertex) {
-        Spoke* spoke = table_.spokes.data() + table_.fans[vertex].first_spoke;
+        Spoke* spoke = table_.spokes.data() + table_.fans[table_.table_vertex[vertex]].first_spoke;
         const FanShape& shape = shapes_[vertex];
         if (shape.kind == FanShape::Kind::tangled) {
             for (const uint32_t side : graph_.sides_leaving(vertex)) {

@@ -30,15 +30,16 @@ FanTable flipped_table(TriangleGraph graph) {
     return make_fan_table(graph, origins);
 }
 
-/// The final part of a run, in world units.
-template <typename Workspace>
-DistanceField collect(const Workspace& workspace, double bound, double unit, DistanceMethod method) {
+/// The final part of a run, in world units; `vertices` gives a vertex of the mesh for one of the workspace.
+template <typename Workspace, typename Vertices>
+DistanceField collect(const Workspace& workspace, double bound, double unit, const Vertices& vertices) {
     DistanceField field;
-    field.method = method;
+    field.vertices.reserve(workspace.reached().size());
+    field.distances.reserve(workspace.reached().size());
     for (const uint32_t vertex : workspace.reached()) {
         const double distance = workspace.distance(vertex);
         if (distance <= bound) {
-            field.vertices.push_back(vertex);
+            field.vertices.push_back(vertices(vertex));
             field.distances.push_back(distance * unit);
         }
     }
@@ -53,7 +54,9 @@ struct GeodesicSolver::State {
     DistanceField approximate(std::span<const Seed> seeds, double bound) {
         std::unique_ptr<VertexFronts> fronts = front_pool.borrow([&] { return VertexFronts(fans); });
         fronts->run(front_seeds(graph, fans, seeds), bound);
-        DistanceField field = collect(*fronts, bound, graph.unit, DistanceMethod::approximate);
+        DistanceField field =
+            collect(*fronts, bound, graph.unit, [&](uint32_t vertex) { return fans.mesh_vertex[vertex]; });
+        field.method = DistanceMethod::approximate;
         front_pool.give_back(std::move(fronts));
         return field;
     }
@@ -65,7 +68,8 @@ struct GeodesicSolver::State {
             window_pool.borrow([&] { return ExactWindows(graph, window_table); });
         const bool done = windows->run(seeds, bound);
         if (done) {
-            field = collect(*windows, bound, graph.unit, DistanceMethod::exact);
+            field = collect(*windows, bound, graph.unit, [](uint32_t vertex) { return vertex; });
+            field.method = DistanceMethod::exact;
         }
         window_pool.give_back(std::move(windows));
         return done;
@@ -74,7 +78,8 @@ struct GeodesicSolver::State {
     bool deserves_exact(const DistanceField& field) const {
         return field.vertices.size() <= small_region ||
                std::any_of(field.vertices.begin(), field.vertices.end(), [&](uint32_t v) {
-                   return fans.fans[v].bend == Fan::tangled && !graph.sides_leaving(v).empty();
+                   return fans.fans[fans.table_vertex[v]].bend == Fan::tangled &&
+                          !graph.sides_leaving(v).empty();
                });
     }
 

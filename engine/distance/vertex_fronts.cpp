@@ -99,20 +99,10 @@ void VertexFronts::accept(uint32_t vertex, float distance, float offset, float d
 void VertexFronts::update(uint32_t from, const Opposite& o) {
     const Front& a = fronts_[from];
     const Front& b = fronts_[o.other];
-    if (!is_reached(b) || !is_settled(b)) {
-        return;
-    }
     const Front& c = fronts_[o.corner];
     const float known = is_reached(c) ? c.distance : never;
     const float cx = o.x, cy = o.y, length = o.length;
     const float a_radius = a.distance - a.offset, b_radius = b.distance - b.offset;
-    if (known <= a.distance) {
-        const bool acute = cx * (cx - length) + cy * cy > 0;
-        if (known < a.distance - too_late * (std::fabs(cx) + cy) ||
-            (acute && is_settled(c) && a_radius > curved_front * length)) {
-            return;
-        }
-    }
     bool a_sees = true, b_sees = true;
     Centre from_a{0, 0}, from_b{length, 0};
     if (a_radius > 0) {
@@ -187,8 +177,7 @@ bool VertexFronts::in_shadow(const Front& front, float direction) {
     return turn >= shadow_turn && front.total - turn >= shadow_turn;
 }
 
-void VertexFronts::follow_edge(uint32_t from, const Spoke& spoke) {
-    const Front& a = fronts_[from];
+void VertexFronts::follow_edge(const Front& a, const Spoke& spoke) {
     const Front& c = fronts_[spoke.vertex];
     const float distance = a.distance + spoke.length;
     if (distance < least_ || (is_reached(c) && distance >= c.distance * (1 - least_gain))) {
@@ -205,21 +194,52 @@ void VertexFronts::follow_edge(uint32_t from, const Spoke& spoke) {
     fronts_[spoke.vertex].stamp |= straight ? 0 : provisional_bit;
 }
 
-void VertexFronts::march_from(uint32_t vertex) {
-    const uint32_t first = fronts_[vertex].first_spoke, end = fronts_[vertex + 1].first_spoke;
-    for (uint32_t i = first; i < end; ++i) {
-        const Spoke& p = table_.spokes[i];
-        if (p.sine < 0) {
-            continue;
-        }
-        const Spoke& q = table_.spokes[i + 1 < end ? i + 1 : first];
-        update(vertex, {p.vertex, q.vertex, p.length, q.length * p.cosine, q.length * p.sine, p.direction,
-                        p.back, q.back, 1});
-        update(vertex, {q.vertex, p.vertex, q.length, p.length * p.cosine, p.length * p.sine, q.direction,
-                        q.back, p.back, -1});
+/// Whether a march from `a` may still lower the corner at (x, y) over an edge of the given length.
+bool VertexFronts::may_lower(const Front& a, const Front& corner, float length, float x, float y) const {
+    if (!is_reached(corner) || corner.distance > a.distance) {
+        return true;
     }
-    for (uint32_t i = first; i < end; ++i) {
-        follow_edge(vertex, table_.spokes[i]);
+    if (corner.distance < a.distance - too_late * (std::fabs(x) + y)) {
+        return false;
+    }
+    const bool acute = x * (x - length) + y * y > 0;
+    return !(acute && is_settled(corner) && a.distance - a.offset > curved_front * length);
+}
+
+void VertexFronts::march_from(uint32_t vertex) {
+    const Front& a = fronts_[vertex];
+    const Spoke* const first = table_.spokes.data() + a.first_spoke;
+    const Spoke* const end = table_.spokes.data() + fronts_[vertex + 1].first_spoke;
+    if (first == end) {
+        return;
+    }
+    const Spoke* p = first;
+    const Front* p_front = &fronts_[p->vertex];
+    for (; p != end; ++p) {
+        const Spoke* q = p + 1 != end ? p + 1 : first;
+        const Front* q_front = &fronts_[q->vertex];
+        if (p->sine >= 0) {
+            const bool p_known = is_reached(*p_front) && is_settled(*p_front);
+            const bool q_known = is_reached(*q_front) && is_settled(*q_front);
+            if (p_known) {
+                const float x = q->length * p->cosine, y = q->length * p->sine;
+                if (may_lower(a, *q_front, p->length, x, y)) {
+                    update(vertex,
+                           {p->vertex, q->vertex, p->length, x, y, p->direction, p->back, q->back, 1});
+                }
+            }
+            if (q_known) {
+                const float x = p->length * p->cosine, y = p->length * p->sine;
+                if (may_lower(a, *p_front, q->length, x, y)) {
+                    update(vertex,
+                           {q->vertex, p->vertex, q->length, x, y, q->direction, q->back, p->back, -1});
+                }
+            }
+        }
+        p_front = q_front;
+    }
+    for (p = first; p != end; ++p) {
+        follow_edge(a, *p);
     }
 }
 

@@ -6,7 +6,7 @@
 
 namespace anvil {
 
-/// Start value of a front: `vertex` sees source `label` in a straight line.
+/// Start value of a front: `vertex` (of the table) sees source `label` in a straight line.
 struct FrontSeed {
     uint32_t vertex = 0;
     uint32_t label = 0;
@@ -27,7 +27,8 @@ class VertexFronts {
     /// unbounded run, bit for bit.
     void run(std::span<const FrontSeed> seeds, double radius);
 
-    /// Vertices that have a value, in order of arrival; values beyond the radius need not be final.
+    /// Vertices (of the table) that have a value, in order of arrival; values beyond the radius need not be
+    /// final.
     std::span<const uint32_t> reached() const { return reached_; }
     float distance(uint32_t vertex) const { return fronts_[vertex].distance; }
 
@@ -54,7 +55,8 @@ class VertexFronts {
                 float delay = 0);
     void march_from(uint32_t vertex);
     void update(uint32_t from, const Opposite& corner);
-    void follow_edge(uint32_t from, const Spoke& spoke);
+    bool may_lower(const Front& a, const Front& corner, float length, float x, float y) const;
+    void follow_edge(const Front& a, const Spoke& spoke);
 
     const FanTable& table_;
     std::vector<Front> fronts_;
