@@ -17,6 +17,7 @@ vk::DescriptorType descriptor_type(ResourceKind kind) {
 
 vk::raii::DescriptorSetLayout make_set_layout(DeviceState& device, const std::vector<ResourceKind>& kinds) {
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
+    bindings.reserve(kinds.size());
     for (const ResourceKind kind : kinds) {
         bindings.push_back({.binding = static_cast<uint32_t>(bindings.size()),
                             .descriptorType = descriptor_type(kind),

@@ -174,6 +174,7 @@ vk::raii::Instance make_instance(const std::vector<std::string>& extensions, boo
     vk::raii::Context& context = vulkan_context();
     require_extensions(extensions);
     std::vector<const char*> names;
+    names.reserve(extensions.size() + 1);
     for (const std::string& name : extensions) {
         names.push_back(name.c_str());
     }

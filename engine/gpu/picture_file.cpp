@@ -5,6 +5,11 @@
 
 #include <string>
 
+#ifdef __clang_analyzer__ // not ours to mend
+using stbi_write_func = void(void* context, void* data, int size);
+int stbi_write_png_to_func(stbi_write_func* write, void* context, int width, int height, int channels,
+                           const void* pixels, int stride);
+#else
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #define STB_IMAGE_WRITE_IMPLEMENTATION
@@ -12,6 +17,7 @@
 #define STBI_WRITE_NO_STDIO
 #include <stb_image_write.h>
 #pragma GCC diagnostic pop
+#endif
 
 namespace anvil {
 
