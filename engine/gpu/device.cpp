@@ -1,4 +1,5 @@
 #include "engine/gpu/device_state.h"
+#include "engine/gpu/pinned_libraries.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -100,6 +101,7 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<DeviceSta
         state_->queue = state_->device.getQueue(state_->queue_family, 0);
         finish(*state_);
     });
+    pin_loaded_libraries();
 }
 
 Device::Device(const VulkanHandles& borrowed) : state_(std::make_unique<DeviceState>()) {

@@ -1,4 +1,5 @@
 #include "engine/gpu/device_state.h"
+#include "engine/gpu/pinned_libraries.h"
 
 #include <algorithm>
 #include <array>
@@ -195,7 +196,9 @@ vk::raii::Instance make_instance(const std::vector<std::string>& extensions, boo
                                       .enabledExtensionCount = static_cast<uint32_t>(names.size()),
                                       .ppEnabledExtensionNames = names.data()};
     try {
-        return {context, info};
+        vk::raii::Instance instance(context, info);
+        pin_loaded_libraries();
+        return instance;
     } catch (const vk::IncompatibleDriverError&) {
         throw DeviceError(
             std::string("there is no Vulkan driver on this machine (Debian: mesa-vulkan-drivers); ") +
