@@ -100,7 +100,7 @@ TEST_CASE("The same recipe gives the same bytes each time", "[app][forge]") {
     }
 }
 
-TEST_CASE("--mesh and --precision change what is read and how it is written", "[app][forge]") {
+TEST_CASE("Options --mesh and --precision change what is read and how it is written", "[app][forge]") {
     const ForgeFolder folder;
     folder.write("pull.json", recipe_text(pull_edit()));
     REQUIRE(run_anvil({"sample", "torus", "-o", folder.path("torus.ply"), "--vertices", "600"}).status == 0);
