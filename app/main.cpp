@@ -89,6 +89,7 @@ int main(int argc, char** argv) {
     anvil::add_probe(program, context);
     anvil::add_sample(program, context);
     anvil::add_devices(program, context);
+    anvil::add_selftest(program, context);
     anvil::add_later_commands(program);
 
     const int status = run(program, argc, argv);

@@ -19,4 +19,8 @@ struct ChosenBackend {
 /// @throws DeviceError
 ChosenBackend choose_backend(const std::string& device);
 
+/// For the end of a command that used the device (nullptr: none).
+/// @throws InternalError if the validation layer is on and objected to anything.
+void check_validation(const std::shared_ptr<Device>& device);
+
 } // namespace anvil

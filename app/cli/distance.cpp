@@ -1,4 +1,5 @@
 #include "engine/distance/distance.h"
+#include "app/cli/backend_choice.h"
 #include "app/cli/command.h"
 #include "app/cli/distance_picture.h"
 #include "engine/core/error.h"
@@ -84,8 +85,9 @@ void run(const Options& options, CommandContext& context) {
         write_text(options.output, lines_of(distances));
         return;
     }
-    Device device;
-    draw_distances(device, mesh, distances, options.picture);
+    const auto device = std::make_shared<Device>();
+    draw_distances(*device, mesh, distances, options.picture);
+    check_validation(device);
     if (!options.output.empty()) {
         write_text(options.output, lines_of(distances));
     }

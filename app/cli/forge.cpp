@@ -117,7 +117,9 @@ void run_forge(const ForgeArguments& arguments, CommandContext& context) {
     if (!arguments.image.empty()) {
         const auto device = chosen.device ? chosen.device : std::make_shared<Device>();
         picture = forge_picture(*device, mesh, recipe, result, view, size, context.progress);
+        check_validation(device);
     }
+    check_validation(chosen.device);
     const auto write_start = Clock::now();
     update_normals(mesh, result.positions, result.moved);
     write_mesh(out, mesh, result.positions, output_precision(arguments.precision));

@@ -9,7 +9,8 @@ using namespace anvil;
 
 namespace {
 
-const std::vector<std::string> commands = {"forge", "info", "distance", "probe", "sample", "devices"};
+const std::vector<std::string> commands = {"forge",  "info",    "distance", "probe",
+                                           "sample", "devices", "selftest"};
 
 } // namespace
 
