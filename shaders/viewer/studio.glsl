@@ -7,13 +7,21 @@ vec3 tinted(vec3 base, float tint) {
     float t = clamp(tint, 0.0, 1.0);
     const vec3 blue = vec3(0.075, 0.235, 0.585);
     const vec3 pale = vec3(0.60, 0.60, 0.58);
-    const vec3 orange = vec3(0.86, 0.30, 0.035);
+    const vec3 orange = vec3(0.84, 0.33, 0.07);
     vec3 ramp = t < 0.55 ? mix(blue, pale, smoothstep(0.12, 0.55, t)) : mix(pale, orange, smoothstep(0.55, 1.0, t));
-    return mix(base, ramp, 0.85 * smoothstep(0.0, 0.14, t));
+    return mix(base, ramp, 0.78 * smoothstep(0.0, 0.14, t));
+}
+
+const vec3 studio_key = normalize(vec3(-0.65, 0.70, 0.50));
+
+/// What glass mirrors of the lights, whatever its opacity.
+float glass_highlight(vec3 n, vec3 to_eye) {
+    float towards = max(0.0, dot(n, normalize(studio_key + to_eye)));
+    return 0.55 * smoothstep(0.985, 0.998, towards) + 0.10 * pow(towards, 40.0);
 }
 
 vec3 studio_light(vec3 n, vec3 to_eye, vec3 base) {
-    const vec3 key = normalize(vec3(-0.65, 0.70, 0.50));
+    const vec3 key = studio_key;
     const vec3 fill = normalize(vec3(0.90, -0.10, 0.35));
     const vec3 rim = normalize(vec3(0.45, 0.45, -0.77));
     vec3 sky = mix(vec3(0.10, 0.085, 0.08), vec3(0.25, 0.28, 0.33), 0.5 + 0.5 * n.y);

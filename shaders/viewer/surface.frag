@@ -30,6 +30,8 @@ void main() {
         float grazing = 1.0 - abs(dot(n, to_eye));
         alpha = mix(alpha, 1.0, 0.75 * grazing * grazing * grazing);
         alpha = gl_FrontFacing ? alpha : 0.6 * alpha;
+        picture = vec4(light * alpha + (gl_FrontFacing ? glass_highlight(n, to_eye) : 0.0), alpha);
+        return;
     }
-    picture = vec4(light * alpha, alpha);
+    picture = vec4(light, 1.0);
 }
