@@ -3,9 +3,30 @@
 #include "engine/core/error.h"
 #include "engine/gpu/gpu_backend.h"
 
+#include <algorithm>
+
 namespace anvil {
 
-ChosenBackend choose_backend(const std::string& device) {
+std::optional<size_t> automatic_device(const std::vector<DeviceInfo>& devices) {
+    const bool any_usable =
+        std::any_of(devices.begin(), devices.end(), [](const DeviceInfo& d) { return d.usable(); });
+    if (!any_usable) {
+        return std::nullopt;
+    }
+    const size_t chosen = choose_device(devices, "auto");
+    return devices[chosen].type == DeviceType::cpu ? std::nullopt : std::optional(chosen);
+}
+
+std::vector<DeviceInfo> devices_or_none(Log& log) {
+    try {
+        return list_devices();
+    } catch (const DeviceError& error) {
+        log.warn(error.what());
+        return {};
+    }
+}
+
+ChosenBackend open_backend(const std::string& device) {
     if (device == "cpu") {
         return {make_cpu_backend(), nullptr};
     }
@@ -14,6 +35,14 @@ ChosenBackend choose_backend(const std::string& device) {
     auto opened = std::make_shared<Device>(options);
     auto backend = make_gpu_backend(opened);
     return {std::move(backend), std::move(opened)};
+}
+
+ChosenBackend choose_backend(const std::string& device, Log& log) {
+    if (device != "auto") {
+        return open_backend(device);
+    }
+    const std::optional<size_t> chosen = automatic_device(devices_or_none(log));
+    return open_backend(chosen ? std::to_string(*chosen) : "cpu");
 }
 
 void check_validation(const std::shared_ptr<Device>& device) {

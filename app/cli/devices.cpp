@@ -1,5 +1,5 @@
+#include "app/cli/backend_choice.h"
 #include "app/cli/command.h"
-#include "engine/core/error.h"
 #include "engine/gpu/device.h"
 
 #include <CLI/CLI.hpp>
@@ -32,24 +32,6 @@ std::string device_text(const DeviceInfo& device, bool taken) {
     return text;
 }
 
-std::optional<size_t> taken_by_auto(const std::vector<DeviceInfo>& devices, Log& log) {
-    try {
-        return choose_device(devices, "auto");
-    } catch (const DeviceError& error) {
-        log.warn(error.what());
-        return std::nullopt;
-    }
-}
-
-std::vector<DeviceInfo> devices_or_none(Log& log) {
-    try {
-        return list_devices();
-    } catch (const DeviceError& error) {
-        log.warn(error.what());
-        return {};
-    }
-}
-
 } // namespace
 
 void add_devices(CLI::App& program, CommandContext& context) {
@@ -57,13 +39,13 @@ void add_devices(CLI::App& program, CommandContext& context) {
         program, "devices", "List the Vulkan devices and which one --device auto takes", "anvil devices");
     command->callback([&context] {
         const std::vector<DeviceInfo> devices = devices_or_none(context.log);
-        const std::optional<size_t> taken =
-            devices.empty() ? std::nullopt : taken_by_auto(devices, context.log);
+        const std::optional<size_t> taken = automatic_device(devices);
         std::string text;
         for (size_t i = 0; i < devices.size(); ++i) {
             text += device_text(devices[i], taken && *taken == i);
         }
-        text += "cpu  double-precision reference, without Vulkan\n";
+        text += std::string("cpu  double-precision reference, without Vulkan") + (taken ? "" : "  <- auto") +
+                "\n";
         write_text("", text);
     });
 }

@@ -109,7 +109,7 @@ void run_forge(const ForgeArguments& arguments, CommandContext& context) {
     const auto load_start = Clock::now();
     Mesh mesh = read_mesh(mesh_file, context.log);
     const double load_seconds = seconds_since(load_start);
-    const ChosenBackend chosen = choose_backend(arguments.device);
+    const ChosenBackend chosen = choose_backend(arguments.device, context.log);
     ForgeResult result = forge(mesh, recipe, *chosen.backend, context.log, context.progress);
     result.report.seconds.load = load_seconds;
 

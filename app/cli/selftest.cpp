@@ -32,7 +32,7 @@ std::string verdict(const SelftestResult& result) {
 }
 
 void run(const std::string& device, CommandContext& context) {
-    const ChosenBackend tested = choose_backend(device);
+    const ChosenBackend tested = open_backend(device);
     const std::vector<SelftestCase> cases = selftest_cases();
     std::string text = tested.backend->device_name() + " against the double-precision reference\n" +
                        row("case", "points", "worst", "allowed", "bifurcating", "");
