@@ -27,9 +27,12 @@ constexpr float angle_slack = 1e-6F;
 
 constexpr uint32_t settled_bit = 1;
 constexpr uint32_t provisional_bit = 2; // came along an edge that may just graze the true way
-constexpr uint32_t march_step = 4;
-constexpr uint32_t run_step = 128; // up to 31 marches a vertex and run
+constexpr uint32_t hasty_bit = 4;       // has marched while provisional
+constexpr uint32_t march_step = 8;
+constexpr uint32_t run_step = 128; // up to 15 marches a vertex and run
+constexpr uint32_t most_repairs = 8;
 constexpr float never = 1e30F;
+constexpr float tangled_total = 2e9F; // of vertices that are always sources of their own
 
 struct Centre {
     float x, y; // y >= 0: below the edge, on the side away from the triangle
@@ -64,15 +67,14 @@ VertexFronts::VertexFronts(const FanTable& table)
     : table_(table), fronts_(table.fans.size()),
       queue_(bucket_width * table.mean_length, 2 * table.longest + table.mean_length) {
     for (size_t v = 0; v < fronts_.size(); ++v) {
-        fronts_[v].total = table.fans[v].total;
-        fronts_[v].bend = table.fans[v].bend;
+        fronts_[v].total = table.fans[v].bend < 0 ? tangled_total : table.fans[v].total;
         fronts_[v].first_spoke = table.fans[v].first_spoke;
     }
     slack_ = static_cast<float>(table.mean_length);
 }
 
 void VertexFronts::accept(uint32_t vertex, float distance, float offset, float direction, uint32_t label,
-                          float delay) {
+                          uint32_t parents, float delay) {
     Front& front = fronts_[vertex];
     if (!is_reached(front)) {
         reached_.push_back(vertex);
@@ -82,8 +84,9 @@ void VertexFronts::accept(uint32_t vertex, float distance, float offset, float d
     }
     front.stamp &= ~(settled_bit | provisional_bit);
     front.distance = distance;
-    front.offset = front.bend < 0 ? distance : offset;
+    front.offset = front.total == tangled_total ? distance : offset;
     front.label = label;
+    front.parents = parents;
     if (direction >= front.total) {
         direction -= front.total;
     }
@@ -166,7 +169,7 @@ void VertexFronts::update(uint32_t from, const Opposite& o) {
         const float wx = centre.x - cx, wy = -centre.y - cy;
         const float across = std::max(0.0F, cy * wx - cx * wy), along = -cx * wx - cy * wy;
         accept(o.corner, distance, distance - distance_between(wx, wy),
-               o.corner_back + o.turn * half_turn_angle(along, across), label);
+               o.corner_back + o.turn * half_turn_angle(along, across), label, from ^ o.other);
     }
 }
 
@@ -177,7 +180,8 @@ bool VertexFronts::in_shadow(const Front& front, float direction) {
     return turn >= shadow_turn && front.total - turn >= shadow_turn;
 }
 
-void VertexFronts::follow_edge(const Front& a, const Spoke& spoke) {
+void VertexFronts::follow_edge(uint32_t from, const Spoke& spoke) {
+    const Front& a = fronts_[from];
     const Front& c = fronts_[spoke.vertex];
     const float distance = a.distance + spoke.length;
     if (distance < least_ || (is_reached(c) && distance >= c.distance * (1 - least_gain))) {
@@ -185,11 +189,11 @@ void VertexFronts::follow_edge(const Front& a, const Spoke& spoke) {
     }
     const bool straight = a.distance <= a.offset || in_shadow(a, spoke.direction);
     // A slight saddle re-aims the centre straight behind it, a strong one becomes the centre.
-    float bend = a.bend < 0 ? 1 : a.bend;
-    if (a.total == Fan::open && a.bend > 0) {
+    float bend = std::fabs(table_.fans[from].bend);
+    if (a.total == Fan::open) {
         bend = clamp_unit((std::fabs(spoke.direction - a.back) - pi) / boundary_bend);
     }
-    accept(spoke.vertex, distance, a.offset + (a.distance - a.offset) * bend, spoke.back, a.label,
+    accept(spoke.vertex, distance, a.offset + (a.distance - a.offset) * bend, spoke.back, a.label, ~from,
            straight ? 0 : spoke.length * edge_delay);
     fronts_[spoke.vertex].stamp |= straight ? 0 : provisional_bit;
 }
@@ -239,7 +243,60 @@ void VertexFronts::march_from(uint32_t vertex) {
         p_front = q_front;
     }
     for (p = first; p != end; ++p) {
-        follow_edge(a, *p);
+        follow_edge(vertex, *p);
+    }
+}
+
+/// A vertex that marched before its own front was known has passed on values that may be too small; nothing
+/// larger would replace them. Those that came from it are found again.
+void VertexFronts::repair_around(uint32_t vertex) {
+    const uint32_t first = fronts_[vertex].first_spoke, end = fronts_[vertex + 1].first_spoke;
+    for (uint32_t i = first; i < end; ++i) {
+        const uint32_t neighbour = table_.spokes[i].vertex;
+        const uint32_t after = table_.spokes[i + 1 < end ? i + 1 : first].vertex;
+        const uint32_t before = table_.spokes[i > first ? i - 1 : end - 1].vertex;
+        const Front& c = fronts_[neighbour];
+        const bool from_here =
+            c.parents == ~vertex || c.parents == (vertex ^ after) || c.parents == (vertex ^ before);
+        // As everywhere, what the front has passed stays, so that bounded runs agree with unbounded ones.
+        if (from_here && is_reached(c) && c.distance >= least_ &&
+            c.stamp % run_step < most_repairs * march_step) {
+            find_again(neighbour);
+        }
+    }
+}
+
+/// The value of a vertex from all its settled neighbours, larger than before or not.
+void VertexFronts::find_again(uint32_t vertex) {
+    Front& c = fronts_[vertex];
+    const Front before = c;
+    c.distance = never;
+    c.stamp &= ~(settled_bit | provisional_bit);
+    const auto settled = [&](const Front& front) { return is_reached(front) && is_settled(front); };
+    const uint32_t first = c.first_spoke, end = fronts_[vertex + 1].first_spoke;
+    for (uint32_t i = first; i < end; ++i) {
+        const Spoke& p = table_.spokes[i];
+        const Spoke& q = table_.spokes[i + 1 < end ? i + 1 : first];
+        const Front& a = fronts_[p.vertex];
+        const float dx = q.length * p.cosine - p.length, dy = q.length * p.sine;
+        const float base = distance_between(dx, dy);
+        if (p.sine < 0 || !(base > 0) || !settled(a) || !settled(fronts_[q.vertex])) {
+            continue;
+        }
+        const float x = -p.length * dx / base, y = p.length * dy / base;
+        float out = p.back - half_turn_angle(x, y), home = q.back + half_turn_angle(base - x, y);
+        out += out < 0 && a.total < Fan::open ? a.total : 0;
+        home -= home >= fronts_[q.vertex].total ? fronts_[q.vertex].total : 0;
+        update(p.vertex, {q.vertex, vertex, base, x, y, out, home, p.direction, 1});
+    }
+    for (uint32_t i = first; i < end; ++i) {
+        const Spoke& p = table_.spokes[i];
+        if (settled(fronts_[p.vertex])) {
+            follow_edge(p.vertex, {vertex, p.length, p.back, p.direction, 1, Spoke::no_corner});
+        }
+    }
+    if (c.distance >= never) {
+        c = before;
     }
 }
 
@@ -258,7 +315,7 @@ void VertexFronts::run(std::span<const FrontSeed> seeds, double radius) {
     for (const FrontSeed& seed : seeds) {
         const Front& front = fronts_[seed.vertex];
         if (!is_reached(front) || seed.distance < front.distance) {
-            accept(seed.vertex, seed.distance, 0, seed.direction, seed.label);
+            accept(seed.vertex, seed.distance, 0, seed.direction, seed.label, ~seed.vertex);
         }
     }
     while (!queue_.empty()) {
@@ -269,9 +326,15 @@ void VertexFronts::run(std::span<const FrontSeed> seeds, double radius) {
         }
         // An unbounded run would go on here; what it still finds must not lie within the radius.
         least_ = static_cast<float>(static_cast<double>(queue_.current()) * queue_.width()) - slack_;
+        const bool was_hasty = (front.stamp & hasty_bit) != 0;
+        front.stamp &= ~hasty_bit;
+        front.stamp |= (front.stamp & provisional_bit) != 0 ? hasty_bit : 0;
         front.stamp += march_step;
         front.stamp |= settled_bit;
         march_from(next.vertex);
+        if (was_hasty) {
+            repair_around(next.vertex);
+        }
     }
 }
 

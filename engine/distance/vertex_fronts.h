@@ -38,8 +38,9 @@ class VertexFronts {
         float offset = 0; ///< distance of the centre itself from the source
         float back = 0;   ///< direction of the centre
         uint32_t label = 0;
-        uint32_t stamp = 0; ///< run, then times marched from, then whether it is final so far
-        float total = 0, bend = 0;
+        uint32_t parents = 0; ///< that the value came from: both ends of an edge xored, or ~ of a single one
+        uint32_t stamp = 0;   ///< run, then times marched from, then flags
+        float total = 0;      ///< Fan::total, or `tangled_total`
         uint32_t first_spoke = 0;
     };
     struct Waiting {
@@ -52,11 +53,13 @@ class VertexFronts {
     static bool in_shadow(const Front& front, float direction);
     static bool is_settled(const Front& front) { return (front.stamp & 1) != 0; }
     void accept(uint32_t vertex, float distance, float offset, float direction, uint32_t label,
-                float delay = 0);
+                uint32_t parents, float delay = 0);
     void march_from(uint32_t vertex);
     void update(uint32_t from, const Opposite& corner);
     bool may_lower(const Front& a, const Front& corner, float length, float x, float y) const;
-    void follow_edge(const Front& a, const Spoke& spoke);
+    void follow_edge(uint32_t from, const Spoke& spoke);
+    void repair_around(uint32_t vertex);
+    void find_again(uint32_t vertex);
 
     const FanTable& table_;
     std::vector<Front> fronts_;
