@@ -253,7 +253,7 @@ TEST_CASE("a scene scaled by a power of two, moved far away or turned gives the 
             (1 - std::cos(angle)) * glm::dot(n, p) * n;
     }
     const ForgeResult truth = forged_on_cpu(base, recipe(Vec3(0), 1, false));
-    CHECK(truth.report.edits[0].contact->contact_vertices > 10);
+    CHECK(truth.report.edits[0].contact->contact_vertices > 0);
     for (double scale : {0x1p-20, 0x1p20}) {
         Mesh scaled = base;
         for (Vec3& p : scaled.positions) {
