@@ -3,6 +3,7 @@
 #include "engine/occluder/kernel_types.h"
 
 #include "embedded/deform.comp.h"
+#include "embedded/deform_single.comp.h"
 
 #include <algorithm>
 #include <array>
@@ -21,9 +22,24 @@ std::vector<ResourceKind> deform_resources() {
 
 } // namespace
 
-DeformVariant DeformVariant::of(const OccluderSet& occluders) {
+DeformVariant DeformVariant::of(const OccluderSet& occluders, const kernel::f32::KernelParams& params) {
     const auto volumes = static_cast<uint32_t>(occluders.volumes.size());
-    return {!occluders.empty(), occluders.paper, volumes == 0 ? 0 : std::bit_ceil(volumes)};
+    DeformVariant variant;
+    variant.occluders = occluders.empty() ? 0 : 1;
+    variant.volumes = volumes == 0 ? 0 : std::bit_ceil(volumes);
+    variant.paper = params.paper;
+    variant.motion = params.motion;
+    variant.steps = params.steps;
+    variant.one_sample = params.sample_count == 1 ? 1 : 0;
+    for (const kernel::f64::ShapeNode& node : occluders.nodes) {
+        variant.shape_kinds |= 1U << node.kind;
+    }
+    variant.single = occluders.occluders.size() == 1 && occluders.nodes.size() == 1;
+    if (variant.single) {
+        variant.single_kind = occluders.nodes[0].kind;
+        variant.single_influence = occluders.occluders[0].influence;
+    }
+    return variant;
 }
 
 DeformPipeline::DeformPipeline(std::shared_ptr<Device> device)
@@ -35,10 +51,13 @@ const ComputeKernel& DeformPipeline::kernel(const DeformVariant& variant) {
             return *kernel;
         }
     }
-    const std::array<uint32_t, 3> constants{variant.occluders ? 1U : 0U, variant.volumes,
-                                            variant.paper ? 1U : 0U};
+    const std::array<uint32_t, 9> constants{
+        variant.occluders,  variant.volumes,     variant.paper,       variant.motion,          variant.steps,
+        variant.one_sample, variant.shape_kinds, variant.single_kind, variant.single_influence};
+    const std::span<const uint32_t> spirv = variant.single ? std::span<const uint32_t>(deform_single_comp)
+                                                           : std::span<const uint32_t>(deform_comp);
     kernels_.emplace_back(variant, std::make_unique<ComputeKernel>(
-                                       device_->state(), deform_comp, deform_resources(),
+                                       device_->state(), spirv, deform_resources(),
                                        sizeof(kernel::f32::KernelParams), deform_workgroup, constants));
     return *kernels_.back().second;
 }

@@ -84,8 +84,8 @@ DeformInput header_of(const DeformInput& input) {
 
 GpuSession::GpuSession(std::shared_ptr<DeformPipeline> pipeline, const DeformInput& input,
                        uint64_t chunk_bytes)
-    : pipeline_(std::move(pipeline)), kernel_(pipeline_->kernel(DeformVariant::of(input.occluders))),
-      header_(header_of(input)), point_count_(input.points.size()), commands_(pipeline_->device()) {
+    : pipeline_(std::move(pipeline)), header_(header_of(input)), point_count_(input.points.size()),
+      commands_(pipeline_->device()) {
     check_sizes(input, still(input.handle_count));
     if (input.occluders.volumes.size() > kernel::f32::MAX_VOLUMES) {
         throw InternalError("an edit has more sampled fields than the kernel binds");
@@ -166,11 +166,12 @@ void GpuSession::update(const DeformMotion& motion) {
     const vk::raii::CommandBuffer& commands = commands_.begin(); // waits: the targets are free to be written
     upload_targets(motion.targets);
     kernel::f32::KernelParams params = narrowed(kernel_params(header_, motion));
+    const ComputeKernel& kernel = pipeline_->kernel(DeformVariant::of(header_.occluders, params));
     guarded("recording the deformation", [&] {
         for (const Chunk& chunk : chunks_) {
             params.point_count = chunk.count;
             params.field_stride = chunk.count;
-            kernel_.record(commands, chunk.resources, params, chunk.count);
+            kernel.record(commands, chunk.resources, params, chunk.count);
         }
     });
     commands_.submit();

@@ -34,7 +34,6 @@ class GpuSession final : public DeformSession {
     void check_motion(const DeformMotion& motion) const;
 
     std::shared_ptr<DeformPipeline> pipeline_;
-    const ComputeKernel& kernel_;
     DeformInput header_; ///< the input without its per-point arrays
     size_t point_count_ = 0;
     std::vector<std::shared_ptr<const VolumeTexture>> volumes_;

@@ -21,6 +21,8 @@ struct OccluderKernel {
 
     real4 volume_texel(uint volume, real3 uvw) const { return volumes[volume]->texel(uvw); }
 
+    static bool shape_is(uint kind, uint wanted) { return kind == wanted; }
+
 // NOLINTBEGIN: compiled as GLSL too
 #include "shaders/shared/shape_function.h"
 

@@ -1,6 +1,7 @@
 // Signed distance (< 0 inside) and outward unit normal of occluders, alike in C++ and GLSL.
 // The includer provides the arrays `nodes` and `occluders` and `real4 volume_texel(uint volume, real3 uvw)`:
 // filtered (normal, distance) of a sampled field, uvw in [0, 1] between the outermost voxel centres.
+// `bool shape_is(uint kind, uint wanted)`: kind == wanted, where the includer may know that no node is of a kind.
 
 struct Probe {
     real distance;
@@ -139,22 +140,24 @@ Probe leaf_probe(ShapeNode node, real3 p) {
     real3 arm = (p - node.origin) / node.scale;
     real3 q = real3(dot(node.axis_x, arm), dot(node.axis_y, arm), dot(node.axis_z, arm));
     Probe result;
-    if (node.kind == SHAPE_SPHERE) {
+    result.distance = 0.0;
+    result.normal = real3(0.0);
+    if (shape_is(node.kind, SHAPE_SPHERE)) {
         result = sphere_probe(q, node.size.x);
-    } else if (node.kind == SHAPE_BOX) {
+    } else if (shape_is(node.kind, SHAPE_BOX)) {
         result = box_probe(q, node.size, node.extra);
-    } else if (node.kind == SHAPE_CYLINDER) {
+    } else if (shape_is(node.kind, SHAPE_CYLINDER)) {
         result = cylinder_probe(q, node.size.x, node.size.y);
-    } else if (node.kind == SHAPE_CAPSULE) {
+    } else if (shape_is(node.kind, SHAPE_CAPSULE)) {
         result = capsule_probe(q, node.size.x, node.size.y);
-    } else if (node.kind == SHAPE_CONE) {
+    } else if (shape_is(node.kind, SHAPE_CONE)) {
         result = cone_probe(q, node.size.x, node.size.y);
-    } else if (node.kind == SHAPE_TORUS) {
+    } else if (shape_is(node.kind, SHAPE_TORUS)) {
         result = torus_probe(q, node.size.x, node.size.y);
-    } else if (node.kind == SHAPE_PLANE) {
+    } else if (shape_is(node.kind, SHAPE_PLANE)) {
         result.distance = dot(node.size, q) - node.extra;
         result.normal = node.size;
-    } else {
+    } else if (shape_is(node.kind, SHAPE_VOLUME)) {
         result = volume_probe(node.volume, q, node.size);
     }
     result.distance = result.distance * node.scale;

@@ -1,0 +1,108 @@
+// One edit's displacement of one point an invocation; the work itself is shared/contact.h. What an edit does not
+// need is compiled out: drivers inline everything, and lavapipe runs both sides of every branch. With SINGLE_LEAF
+// there is one occluder of one node, which stays in registers.
+
+layout(local_size_x = 64) in; // deform_workgroup in engine/gpu/deform_pipeline.h
+
+#define real float
+#define real3 vec3
+#define real4 vec4
+#define INOUT(type) inout type
+#define PRECISE precise
+
+#include "shared/invocation.glsl"
+#include "shared/kernel_types.h"
+
+layout(push_constant, scalar) uniform Parameters { KernelParams pushed; };
+KernelParams params; // `pushed`, with what this variant of the pipeline does not do set to zero
+
+layout(binding = 0, scalar) readonly buffer Points { vec3 points[]; };
+layout(binding = 1, scalar) readonly buffer Fields { float fields[]; };
+layout(binding = 2, scalar) readonly buffer StartDistances { float start_distances[]; };
+layout(binding = 3, scalar) readonly buffer Shapes { CurveRange shapes[]; };
+layout(binding = 4, scalar) readonly buffer Segments { ShapeSegment segments[]; };
+#ifdef SINGLE_LEAF
+layout(binding = 5, scalar) readonly buffer Occluders { Occluder stored_occluder; };
+layout(binding = 6, scalar) readonly buffer Nodes { ShapeNode stored_node; };
+Occluder occluders[1];
+ShapeNode nodes[1];
+#else
+layout(binding = 5, scalar) readonly buffer Occluders { Occluder occluders[]; };
+layout(binding = 6, scalar) readonly buffer Nodes { ShapeNode nodes[]; };
+#endif
+layout(binding = 7, scalar) readonly buffer Targets { vec3 targets[]; };
+layout(binding = 8, scalar) writeonly buffer Results { VertexResult results[]; };
+// Single bindings, not an array: its index would have to be the same in all invocations.
+// Single bindings, not an array: its index would have to be the same in all invocations.
+layout(binding = 9) uniform sampler3D volume_0;
+layout(binding = 10) uniform sampler3D volume_1;
+layout(binding = 11) uniform sampler3D volume_2;
+layout(binding = 12) uniform sampler3D volume_3;
+layout(binding = 13) uniform sampler3D volume_4;
+layout(binding = 14) uniform sampler3D volume_5;
+layout(binding = 15) uniform sampler3D volume_6;
+layout(binding = 16) uniform sampler3D volume_7;
+
+// DeformVariant of engine/gpu/deform_pipeline.h, in this order.
+layout(constant_id = 0) const uint has_occluders = 1u;
+layout(constant_id = 1) const uint volume_count = 8u;
+layout(constant_id = 2) const uint paper = 1u;
+layout(constant_id = 3) const uint motion = 0u;
+layout(constant_id = 4) const uint steps = 0u;
+layout(constant_id = 5) const uint one_sample = 0u;
+layout(constant_id = 6) const uint shape_kinds = 0u; // bit SHAPE_...: there is a node of this kind
+layout(constant_id = 7) const uint single_kind = 0u;
+layout(constant_id = 8) const uint single_influence = 0u;
+
+bool shape_is(uint kind, uint wanted) { return (shape_kinds & (1u << wanted)) != 0u && kind == wanted; }
+
+/// Between the outermost voxel centres, as the field's own coordinates run.
+vec3 texture_place(ivec3 size, vec3 uvw) { return (uvw * vec3(size - 1) + 0.5) / vec3(size); }
+
+#define SAMPLE_IF(number, name)                                                                                        \
+    if (volume_count > number && volume == number) {                                                                   \
+        return textureLod(name, texture_place(textureSize(name, 0), uvw), 0.0);                                        \
+    }
+
+vec4 volume_texel(uint volume, vec3 uvw) {
+    SAMPLE_IF(0u, volume_0)
+    SAMPLE_IF(1u, volume_1)
+    SAMPLE_IF(2u, volume_2)
+    SAMPLE_IF(3u, volume_3)
+    SAMPLE_IF(4u, volume_4)
+    SAMPLE_IF(5u, volume_5)
+    SAMPLE_IF(6u, volume_6)
+    SAMPLE_IF(7u, volume_7)
+    return vec4(0.0);
+}
+
+#include "shared/shape_function.h"
+#include "shared/occluder.h"
+#include "shared/contact.h"
+
+/// What the variant knows, as constants.
+void prepare() {
+    params = pushed;
+    params.occluder_count = has_occluders != 0u ? params.occluder_count : 0u;
+    params.paper = paper;
+    params.motion = motion;
+    params.steps = steps;
+    params.sample_count = one_sample != 0u ? 1u : params.sample_count;
+#ifdef SINGLE_LEAF
+    params.occluder_count = 1u;
+    occluders[0] = stored_occluder;
+    occluders[0].first_node = 0u;
+    occluders[0].node_count = 1u;
+    occluders[0].influence = single_influence;
+    nodes[0] = stored_node;
+    nodes[0].kind = single_kind;
+#endif
+}
+
+void main() {
+    uint i = invocation_index();
+    prepare();
+    if (i < params.point_count) {
+        results[i] = deformed(i);
+    }
+}
