@@ -35,7 +35,6 @@ class Builder {
     FanTable build() {
         const size_t count = graph_.vertex_count();
         table_.fans.resize(count + 1);
-        number_breadth_first();
         parallel_for(graph_.corner_vertex.size(), 1 << 14, [&](size_t begin, size_t end) {
             for (size_t side = begin; side < end; ++side) {
                 corners_[side] = corner_at(graph_, static_cast<uint32_t>(side));
@@ -49,7 +48,7 @@ class Builder {
         uint32_t place = 0;
         for (size_t v = 0; v < count; ++v) {
             table_.fans[v].first_spoke = place;
-            place += spoke_count(table_.mesh_vertex[v]);
+            place += spoke_count(static_cast<uint32_t>(v));
         }
         table_.fans[count].first_spoke = place;
         table_.spokes.resize(place);
@@ -63,30 +62,6 @@ class Builder {
     }
 
   private:
-    void number_breadth_first() {
-        const auto count = static_cast<uint32_t>(graph_.vertex_count());
-        std::vector<uint32_t>& order = table_.mesh_vertex;
-        std::vector<uint32_t>& place = table_.table_vertex;
-        order.reserve(count);
-        place.assign(count, no_index);
-        const auto number = [&](uint32_t vertex) {
-            if (place[vertex] == no_index) {
-                place[vertex] = static_cast<uint32_t>(order.size());
-                order.push_back(vertex);
-            }
-        };
-        for (uint32_t start = 0; start < count; ++start) {
-            size_t done = order.size();
-            number(start);
-            for (; done < order.size(); ++done) {
-                for (const uint32_t side : graph_.sides_leaving(order[done])) {
-                    number(graph_.to(side));
-                    number(graph_.apex(side));
-                }
-            }
-        }
-    }
-
     uint32_t spoke_count(uint32_t vertex) const {
         const auto corners = static_cast<uint32_t>(graph_.sides_leaving(vertex).size());
         switch (shapes_[vertex].kind) {
@@ -102,28 +77,46 @@ class Builder {
     double angle(uint32_t side) const { return std::atan2(corners_[side].sine, corners_[side].cosine); }
 
     void measure(uint32_t vertex) {
-        const FanShape shape = fan_shape(graph_, vertex, origins_[vertex].side);
-        shapes_[vertex] = shape;
-        if (shape.kind == FanShape::Kind::tangled) {
+        FanShape& shape = shapes_[vertex];
+        Fan& fan = table_.fans[vertex];
+        const DirectionOrigin& origin = origins_[vertex];
+        if (origin.side == no_index) {
             return;
         }
-        const bool closed = shape.kind == FanShape::Kind::closed;
-        double direction = closed ? origins_[vertex].direction : 0;
-        const double start = direction;
-        uint32_t side = shape.first;
-        do {
-            directions_[side] = static_cast<float>(direction);
-            direction += angle(side);
-            side = graph_.twin(TriangleGraph::previous(side));
-        } while (side < TriangleGraph::tangled && side != shape.first);
-        const double total = direction - start;
-        Fan& fan = table_.fans[table_.table_vertex[vertex]];
-        fan.total = closed ? static_cast<float>(total) : Fan::open;
-        fan.bend =
-            closed ? static_cast<float>(std::clamp((total - 2 * std::numbers::pi) / full_bend, 0.0, 1.0)) : 1;
-        if (closed) {
-            wrap(shape.first, fan.total);
+        // Nearly every fan closes: one walk finds that out and measures.
+        Walk walk = walk_from(origin.side, origin.direction);
+        if (walk.corners == graph_.sides_leaving(vertex).size() && walk.closes) {
+            shape = {FanShape::Kind::closed, origin.side};
+            fan.total = static_cast<float>(walk.total);
+            fan.bend =
+                static_cast<float>(std::clamp((walk.total - 2 * std::numbers::pi) / full_bend, 0.0, 1.0));
+            wrap(origin.side, fan.total);
+            return;
         }
+        shape = fan_shape(graph_, vertex, origin.side);
+        if (shape.kind == FanShape::Kind::open) {
+            walk_from(shape.first, 0);
+            fan.bend = 1;
+        }
+    }
+
+    struct Walk {
+        size_t corners = 0;
+        double total = 0;
+        bool closes = false;
+    };
+    /// Sets the directions of the sides counterclockwise of `first` until they close or end.
+    Walk walk_from(uint32_t first, double direction) {
+        Walk walk;
+        uint32_t side = first;
+        do {
+            directions_[side] = static_cast<float>(direction + walk.total);
+            walk.total += angle(side);
+            ++walk.corners;
+            side = graph_.twin(TriangleGraph::previous(side));
+        } while (side < TriangleGraph::tangled && side != first);
+        walk.closes = side == first;
+        return walk;
     }
 
     /// Brings the directions of a closed fan into [0, total).
@@ -148,7 +141,7 @@ class Builder {
     }
 
     Spoke leaving_spoke(uint32_t side) const {
-        return {table_.table_vertex[graph_.to(side)],
+        return {graph_.to(side),
                 static_cast<float>(graph_.side_length[side]),
                 directions_[side],
                 back_direction(side),
@@ -159,7 +152,7 @@ class Builder {
     /// The spoke at the counterclockwise end of the corner that `side` leaves.
     Spoke end_spoke(uint32_t side) const {
         const uint32_t arriving = TriangleGraph::previous(side);
-        return {table_.table_vertex[graph_.from(arriving)],
+        return {graph_.from(arriving),
                 static_cast<float>(graph_.side_length[arriving]),
                 static_cast<float>(directions_[side] + angle(side)),
                 directions_[arriving],
@@ -168,7 +161,7 @@ class Builder {
     }
 
     void fill(uint32_t vertex) {
-        Spoke* spoke = table_.spokes.data() + table_.fans[table_.table_vertex[vertex]].first_spoke;
+        Spoke* spoke = table_.spokes.data() + table_.fans[vertex].first_spoke;
         const FanShape& shape = shapes_[vertex];
         if (shape.kind == FanShape::Kind::tangled) {
             for (const uint32_t side : graph_.sides_leaving(vertex)) {

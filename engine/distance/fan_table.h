@@ -30,14 +30,11 @@ struct Fan {
     static constexpr float tangled = -1;
 };
 
-/// The table numbers vertices anew, breadth first, so that a front finds its surroundings close by in memory.
 /// Spokes of vertex v: [fans[v].first_spoke, fans[v + 1].first_spoke), counterclockwise. In a closed fan the
 /// corner of the last spoke leads to the first. A tangled vertex has each corner as two spokes.
 struct FanTable {
     std::vector<Fan> fans; ///< one more than vertices
     std::vector<Spoke> spokes;
-    std::vector<uint32_t> mesh_vertex;  ///< of each vertex of the table
-    std::vector<uint32_t> table_vertex; ///< of each vertex of the mesh
     double mean_length = 0;
     double longest = 0;
 };

@@ -116,8 +116,8 @@ std::vector<FrontSeed> front_seeds(const TriangleGraph& graph, const FanTable& t
     std::vector<FrontSeed> fronts;
     for (const Seed& seed : seeds) {
         const double direction = seed.side == no_index ? 0 : direction_of(graph, seed.side) + seed.angle;
-        fronts.push_back({table.table_vertex[seed.vertex], seed.label, static_cast<float>(seed.distance),
-                          static_cast<float>(direction)});
+        fronts.push_back(
+            {seed.vertex, seed.label, static_cast<float>(seed.distance), static_cast<float>(direction)});
     }
     const size_t given = fronts.size();
     for (size_t i = 0; i < given; ++i) {

@@ -22,7 +22,7 @@ TriangleGraph checked_graph(const Mesh& mesh, std::span<const Vec3> positions) {
                              " is not finite; repair the mesh");
         }
     }
-    return make_triangle_graph(mesh.triangles, positions);
+    return make_triangle_graph(mesh.triangles, positions, number_by_place(mesh.triangles, positions));
 }
 
 FanTable flipped_table(TriangleGraph graph) {
@@ -30,17 +30,17 @@ FanTable flipped_table(TriangleGraph graph) {
     return make_fan_table(graph, origins);
 }
 
-/// The final part of a run, in world units; `vertices` gives a vertex of the mesh for one of the workspace.
-template <typename Workspace, typename Vertices>
-DistanceField collect(const Workspace& workspace, double bound, double unit, const Vertices& vertices) {
+/// The final part of a run, in world units and with the mesh's numbers.
+template <typename Workspace>
+DistanceField collect(const Workspace& workspace, const TriangleGraph& graph, double bound) {
     DistanceField field;
     field.vertices.reserve(workspace.reached().size());
     field.distances.reserve(workspace.reached().size());
     for (const uint32_t vertex : workspace.reached()) {
         const double distance = workspace.distance(vertex);
         if (distance <= bound) {
-            field.vertices.push_back(vertices(vertex));
-            field.distances.push_back(distance * unit);
+            field.vertices.push_back(graph.numbering.mesh_vertex[vertex]);
+            field.distances.push_back(distance * graph.unit);
         }
     }
     return field;
@@ -54,8 +54,7 @@ struct GeodesicSolver::State {
     DistanceField approximate(std::span<const Seed> seeds, double bound) {
         std::unique_ptr<VertexFronts> fronts = front_pool.borrow([&] { return VertexFronts(fans); });
         fronts->run(front_seeds(graph, fans, seeds), bound);
-        DistanceField field =
-            collect(*fronts, bound, graph.unit, [&](uint32_t vertex) { return fans.mesh_vertex[vertex]; });
+        DistanceField field = collect(*fronts, graph, bound);
         field.method = DistanceMethod::approximate;
         front_pool.give_back(std::move(fronts));
         return field;
@@ -68,7 +67,7 @@ struct GeodesicSolver::State {
             window_pool.borrow([&] { return ExactWindows(graph, window_table); });
         const bool done = windows->run(seeds, bound);
         if (done) {
-            field = collect(*windows, bound, graph.unit, [](uint32_t vertex) { return vertex; });
+            field = collect(*windows, graph, bound);
             field.method = DistanceMethod::exact;
         }
         window_pool.give_back(std::move(windows));
@@ -77,9 +76,9 @@ struct GeodesicSolver::State {
 
     bool deserves_exact(const DistanceField& field) const {
         return field.vertices.size() <= small_region ||
-               std::any_of(field.vertices.begin(), field.vertices.end(), [&](uint32_t v) {
-                   return fans.fans[fans.table_vertex[v]].bend == Fan::tangled &&
-                          !graph.sides_leaving(v).empty();
+               std::any_of(field.vertices.begin(), field.vertices.end(), [&](uint32_t mesh_vertex) {
+                   const uint32_t v = graph.numbering.new_vertex[mesh_vertex];
+                   return fans.fans[v].bend == Fan::tangled && !graph.sides_leaving(v).empty();
                });
     }
 

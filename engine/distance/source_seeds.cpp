@@ -39,13 +39,13 @@ class Seeder {
 
     void add(const SurfacePoint& point) {
         if (point.triangle == no_index) {
-            seeds_.push_back({point.vertex, label_, 0, no_index, 0});
+            seeds_.push_back({graph_.numbering.new_vertex[point.vertex], label_, 0, no_index, 0});
             return;
         }
         const Vec3 weights = glm::max(point.barycentric, Vec3(0)) /
                              (std::max(point.barycentric.x, 0.0) + std::max(point.barycentric.y, 0.0) +
                               std::max(point.barycentric.z, 0.0));
-        const uint32_t first = 3 * point.triangle;
+        const uint32_t first = 3 * graph_.numbering.new_triangle[point.triangle];
         for (int k = 0; k < 3; ++k) {
             if (weights[k] >= 1 - snap) {
                 seeds_.push_back({graph_.corner_vertex[first + k], label_, 0, no_index, 0});

@@ -6,7 +6,8 @@
 
 namespace anvil {
 
-/// A vertex that sees source number `label` in a straight line, at `distance` (units of the graph).
+/// A vertex (of the graph) that sees source number `label` in a straight line, at `distance` (units of the
+/// graph).
 struct Seed {
     uint32_t vertex = 0;
     uint32_t label = 0;

@@ -16,10 +16,11 @@ double power_of_two_near(double extent) {
 void measure_sides(TriangleGraph& graph, std::span<const Vec3> positions) {
     graph.side_length.resize(graph.corner_vertex.size());
     const double inverse = 1 / graph.unit;
+    const std::vector<uint32_t>& mesh_vertex = graph.numbering.mesh_vertex;
     parallel_for(graph.triangle_count(), 1 << 14, [&](size_t begin, size_t end) {
         for (size_t side = 3 * begin; side < 3 * end; ++side) {
-            const Vec3& from = positions[graph.corner_vertex[side]];
-            const Vec3& to = positions[graph.corner_vertex[TriangleGraph::next(static_cast<uint32_t>(side))]];
+            const Vec3& from = positions[mesh_vertex[graph.corner_vertex[side]]];
+            const Vec3& to = positions[mesh_vertex[graph.to(static_cast<uint32_t>(side))]];
             graph.side_length[side] = glm::length((to - from) * inverse);
         }
     });
@@ -97,16 +98,21 @@ void link_vertices(TriangleGraph& graph, size_t vertex_count) {
     }
 }
 
-TriangleGraph make_triangle_graph(std::span<const Triangle> triangles, std::span<const Vec3> positions) {
+TriangleGraph make_triangle_graph(std::span<const Triangle> triangles, std::span<const Vec3> positions,
+                                  Numbering numbering) {
     TriangleGraph graph;
+    graph.numbering = std::move(numbering);
     Box box;
     for (const Vec3& p : positions) {
         box.include(p);
     }
     graph.unit = power_of_two_near(box.diagonal());
-    graph.corner_vertex.reserve(3 * triangles.size());
-    for (const Triangle& t : triangles) {
-        graph.corner_vertex.insert(graph.corner_vertex.end(), t.begin(), t.end());
+    graph.corner_vertex.resize(3 * triangles.size());
+    for (size_t t = 0; t < triangles.size(); ++t) {
+        for (size_t k = 0; k < 3; ++k) {
+            graph.corner_vertex[3 * graph.numbering.new_triangle[t] + k] =
+                graph.numbering.new_vertex[triangles[t][k]];
+        }
     }
     measure_sides(graph, positions);
     link_vertices(graph, positions.size());

@@ -1,7 +1,7 @@
 // What every marching method needs to know of a surface: side lengths and the triangles around each vertex.
 #pragma once
 
-#include "engine/core/types.h"
+#include "engine/distance/numbering.h"
 
 #include <span>
 #include <vector>
@@ -9,10 +9,12 @@
 namespace anvil {
 
 /// Side s = 3 t + k of triangle t runs from its corner k to corner k + 1. A side also stands for the corner
-/// that it leaves. Any number of triangles may share an edge or a vertex. Lengths are in units of a power of
-/// two near the extent of the mesh, so that squares neither overflow nor vanish at any scale and scaling by
-/// powers of two changes no digit.
+/// that it leaves. Any number of triangles may share an edge or a vertex. Vertices and triangles have the
+/// numbers of `numbering`; corners keep their order. Lengths are in units of a power of two near the extent
+/// of the mesh, so that squares neither overflow nor vanish at any scale and scaling by powers of two changes
+/// no digit.
 struct TriangleGraph {
+    Numbering numbering;
     double unit = 1;                     ///< world length of 1
     std::vector<uint32_t> corner_vertex; ///< 3 per triangle
     std::vector<double> side_length;     ///< 3 per triangle
@@ -52,6 +54,7 @@ struct TriangleGraph {
 void link_vertices(TriangleGraph& graph, size_t vertex_count);
 
 /// Every index of `triangles` is below positions.size(); positions are finite.
-TriangleGraph make_triangle_graph(std::span<const Triangle> triangles, std::span<const Vec3> positions);
+TriangleGraph make_triangle_graph(std::span<const Triangle> triangles, std::span<const Vec3> positions,
+                                  Numbering numbering);
 
 } // namespace anvil

@@ -6,7 +6,7 @@
 
 namespace anvil {
 
-/// Start value of a front: `vertex` (of the table) sees source `label` in a straight line.
+/// Start value of a front: `vertex` sees source `label` in a straight line.
 struct FrontSeed {
     uint32_t vertex = 0;
     uint32_t label = 0;
@@ -27,8 +27,7 @@ class VertexFronts {
     /// unbounded run, bit for bit.
     void run(std::span<const FrontSeed> seeds, double radius);
 
-    /// Vertices (of the table) that have a value, in order of arrival; values beyond the radius need not be
-    /// final.
+    /// Vertices that have a value, in order of arrival; values beyond the radius need not be final.
     std::span<const uint32_t> reached() const { return reached_; }
     float distance(uint32_t vertex) const { return fronts_[vertex].distance; }
 
