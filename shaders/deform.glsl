@@ -1,6 +1,6 @@
 // One edit's displacement of one point an invocation; the work itself is shared/contact.h. What an edit does not
-// need is compiled out: drivers inline everything, and lavapipe runs both sides of every branch. With SINGLE_LEAF
-// there is one occluder of one node, which stays in registers.
+// need is compiled out: drivers inline everything, and lavapipe runs both sides of every branch. With FEW_OCCLUDERS
+// the variant knows their number and kinds, so that loops unroll and occluders stay in registers.
 
 layout(local_size_x = 64) in; // deform_workgroup in engine/gpu/deform_pipeline.h
 
@@ -21,11 +21,16 @@ layout(binding = 1, scalar) readonly buffer Fields { float fields[]; };
 layout(binding = 2, scalar) readonly buffer StartDistances { float start_distances[]; };
 layout(binding = 3, scalar) readonly buffer Shapes { CurveRange shapes[]; };
 layout(binding = 4, scalar) readonly buffer Segments { ShapeSegment segments[]; };
-#ifdef SINGLE_LEAF
-layout(binding = 5, scalar) readonly buffer Occluders { Occluder stored_occluder; };
-layout(binding = 6, scalar) readonly buffer Nodes { ShapeNode stored_node; };
-Occluder occluders[1];
-ShapeNode nodes[1];
+#ifdef FEW_OCCLUDERS
+layout(constant_id = 7) const uint occluder_count = 1u;
+layout(constant_id = 8) const uint node_count = 1u;
+layout(constant_id = 9) const uint node_counts = 1u; // of each occluder, 4 bits each
+layout(constant_id = 10) const uint kinds = 0u;      // of each node, likewise
+layout(constant_id = 11) const uint influences = 0u; // of each occluder, likewise
+layout(binding = 5, scalar) readonly buffer Occluders { Occluder stored_occluders[]; };
+layout(binding = 6, scalar) readonly buffer Nodes { ShapeNode stored_nodes[]; };
+Occluder occluders[occluder_count];
+ShapeNode nodes[node_count];
 #else
 layout(binding = 5, scalar) readonly buffer Occluders { Occluder occluders[]; };
 layout(binding = 6, scalar) readonly buffer Nodes { ShapeNode nodes[]; };
@@ -51,8 +56,21 @@ layout(constant_id = 3) const uint motion = 0u;
 layout(constant_id = 4) const uint steps = 0u;
 layout(constant_id = 5) const uint one_sample = 0u;
 layout(constant_id = 6) const uint shape_kinds = 0u; // bit SHAPE_...: there is a node of this kind
-layout(constant_id = 7) const uint single_kind = 0u;
-layout(constant_id = 8) const uint single_influence = 0u;
+
+/// Where there are few, by selection: an index that is not a constant would put them all into memory.
+Occluder occluder_at(uint k) {
+#ifdef FEW_OCCLUDERS
+    Occluder occluder = occluders[0];
+    for (uint other = 1u; other < occluder_count; ++other) {
+        if (k == other) {
+            occluder = occluders[other];
+        }
+    }
+    return occluder;
+#else
+    return occluders[k];
+#endif
+}
 
 bool shape_is(uint kind, uint wanted) { return (shape_kinds & (1u << wanted)) != 0u && kind == wanted; }
 
@@ -88,14 +106,20 @@ void prepare() {
     params.motion = motion;
     params.steps = steps;
     params.sample_count = one_sample != 0u ? 1u : params.sample_count;
-#ifdef SINGLE_LEAF
-    params.occluder_count = 1u;
-    occluders[0] = stored_occluder;
-    occluders[0].first_node = 0u;
-    occluders[0].node_count = 1u;
-    occluders[0].influence = single_influence;
-    nodes[0] = stored_node;
-    nodes[0].kind = single_kind;
+#ifdef FEW_OCCLUDERS
+    params.occluder_count = occluder_count;
+    uint first_node = 0u;
+    for (uint k = 0u; k < occluder_count; ++k) {
+        occluders[k] = stored_occluders[k];
+        occluders[k].first_node = first_node;
+        occluders[k].node_count = (node_counts >> (4u * k)) & 15u;
+        occluders[k].influence = (influences >> (4u * k)) & 15u;
+        first_node += occluders[k].node_count;
+    }
+    for (uint n = 0u; n < node_count; ++n) {
+        nodes[n] = stored_nodes[n];
+        nodes[n].kind = (kinds >> (4u * n)) & 15u;
+    }
 #endif
 }
 

@@ -17,6 +17,8 @@ struct DeformKernel : OccluderKernel {
     const real3* targets = nullptr;
     const real* start_distances = nullptr;
 
+    const Occluder& occluder_at(uint k) const { return occluders[k]; }
+
 // NOLINTBEGIN: compiled as GLSL too
 #include "shaders/shared/contact.h"
     // NOLINTEND

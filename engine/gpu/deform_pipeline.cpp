@@ -3,7 +3,7 @@
 #include "engine/occluder/kernel_types.h"
 
 #include "embedded/deform.comp.h"
-#include "embedded/deform_single.comp.h"
+#include "embedded/deform_few.comp.h"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +12,9 @@
 namespace anvil {
 
 namespace {
+
+constexpr size_t few_occluders = 4;
+constexpr size_t few_nodes = 8;
 
 /// In the order of the shader's bindings.
 std::vector<ResourceKind> deform_resources() {
@@ -34,10 +37,18 @@ DeformVariant DeformVariant::of(const OccluderSet& occluders, const kernel::f32:
     for (const kernel::f64::ShapeNode& node : occluders.nodes) {
         variant.shape_kinds |= 1U << node.kind;
     }
-    variant.single = occluders.occluders.size() == 1 && occluders.nodes.size() == 1;
-    if (variant.single) {
-        variant.single_kind = occluders.nodes[0].kind;
-        variant.single_influence = occluders.occluders[0].influence;
+    variant.few = !occluders.empty() && occluders.occluders.size() <= few_occluders &&
+                  occluders.nodes.size() <= few_nodes;
+    if (variant.few) {
+        variant.occluder_count = static_cast<uint32_t>(occluders.occluders.size());
+        variant.node_count = static_cast<uint32_t>(occluders.nodes.size());
+        for (uint32_t i = 0; i < variant.occluder_count; ++i) {
+            variant.node_counts |= occluders.occluders[i].node_count << (4 * i);
+            variant.influences |= occluders.occluders[i].influence << (4 * i);
+        }
+        for (uint32_t i = 0; i < variant.node_count; ++i) {
+            variant.kinds |= occluders.nodes[i].kind << (4 * i);
+        }
     }
     return variant;
 }
@@ -51,11 +62,12 @@ const ComputeKernel& DeformPipeline::kernel(const DeformVariant& variant) {
             return *kernel;
         }
     }
-    const std::array<uint32_t, 9> constants{
-        variant.occluders,  variant.volumes,     variant.paper,       variant.motion,          variant.steps,
-        variant.one_sample, variant.shape_kinds, variant.single_kind, variant.single_influence};
-    const std::span<const uint32_t> spirv = variant.single ? std::span<const uint32_t>(deform_single_comp)
-                                                           : std::span<const uint32_t>(deform_comp);
+    const std::array<uint32_t, 12> constants{variant.occluders,   variant.volumes,        variant.paper,
+                                             variant.motion,      variant.steps,          variant.one_sample,
+                                             variant.shape_kinds, variant.occluder_count, variant.node_count,
+                                             variant.node_counts, variant.kinds,          variant.influences};
+    const std::span<const uint32_t> spirv =
+        variant.few ? std::span<const uint32_t>(deform_few_comp) : std::span<const uint32_t>(deform_comp);
     kernels_.emplace_back(variant, std::make_unique<ComputeKernel>(
                                        device_->state(), spirv, deform_resources(),
                                        sizeof(kernel::f32::KernelParams), deform_workgroup, constants));

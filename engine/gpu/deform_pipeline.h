@@ -17,17 +17,20 @@ inline constexpr uint32_t deform_workgroup = 64; ///< local_size_x of shaders/de
 /// everything and lavapipe runs both sides of every branch: leaving out what an edit does not need makes it
 /// compile in a tenth of the time and run ten times as fast there.
 struct DeformVariant {
-    uint32_t occluders = 0;        ///< 1: there are any
-    uint32_t volumes = 0;          ///< sampled fields: 0, 1, 2, 4 or MAX_VOLUMES
-    uint32_t paper = 0;            ///< 1: the paper's literal influence
-    uint32_t motion = 0;           ///< MOTION_...
-    uint32_t steps = 0;            ///< STEPS_...
-    uint32_t one_sample = 0;       ///< 1: the path has one sample
-    uint32_t shape_kinds = 0;      ///< bit SHAPE_...: there is a node of this kind
-    uint32_t single_kind = 0;      ///< where `single`: the node's kind
-    uint32_t single_influence = 0; ///< where `single`: the occluder's influence
-
-    bool single = false; ///< one occluder of one node: kept in registers (no constant: another shader)
+    uint32_t occluders = 0;   ///< 1: there are any
+    uint32_t volumes = 0;     ///< sampled fields: 0, 1, 2, 4 or MAX_VOLUMES
+    uint32_t paper = 0;       ///< 1: the paper's literal influence
+    uint32_t motion = 0;      ///< MOTION_...
+    uint32_t steps = 0;       ///< STEPS_...
+    uint32_t one_sample = 0;  ///< 1: the path has one sample
+    uint32_t shape_kinds = 0; ///< bit SHAPE_...: there is a node of this kind
+    // Where `few`; 4 bits each, the first lowest:
+    uint32_t occluder_count = 0;
+    uint32_t node_count = 0;  ///< of all
+    uint32_t node_counts = 0; ///< of each occluder
+    uint32_t kinds = 0;       ///< of each node
+    uint32_t influences = 0;  ///< of each occluder
+    bool few = false; ///< up to 4 occluders and 8 nodes: kept in registers (no constant: another shader)
 
     /// The least variant for an edit.
     static DeformVariant of(const OccluderSet& occluders, const kernel::f32::KernelParams& params);

@@ -2,7 +2,8 @@
 // C++ and GLSL. "True-level contact": near an occluder a vertex is held at the level `margin`, which no
 // sampled field and no step can miss, and remembers by `lift` how far above its true level that is. The
 // includer provides, beside what occluder.h and shape_function.h need, `params`, `points`, `fields`,
-// `shapes`, `targets` and `start_distances`, and for C++ the macro INOUT.
+// `shapes`, `targets` and `start_distances`, `Occluder occluder_at(uint k)` (occluders[k] for a k that differs
+// between vertices), and for C++ the macro INOUT.
 
 // The occluder that matters at a point: the one with the least clearance = distance - margin.
 struct Contact {
@@ -151,18 +152,18 @@ Contact contact_at(real3 p, INOUT(Vertex) vertex) {
 // Moves p along normals until its clearance is 0. False in a corner, where that fails.
 bool put_on_level(INOUT(real3) offset, real3 base, INOUT(Contact) contact, INOUT(Vertex) vertex) {
     for (uint i = 0u; i < NEWTON_LIMIT; ++i) {
-        if (abs(contact.clearance) <= NEWTON_TOLERANCE * occluders[contact.occluder].step) {
+        if (abs(contact.clearance) <= NEWTON_TOLERANCE * occluder_at(contact.occluder).step) {
             return true;
         }
         offset -= contact.clearance * contact.normal;
         contact = contact_at(base + offset, vertex);
     }
-    return contact.clearance >= -CORNER_DEPTH * occluders[contact.occluder].step;
+    return contact.clearance >= -CORNER_DEPTH * occluder_at(contact.occluder).step;
 }
 
 // How much an influence slows a vertex that approaches: eq. 17 as a share of the step r along direction u.
 real slowing(Contact contact, real lift, real3 u, real r) {
-    Occluder occluder = occluders[contact.occluder];
+    Occluder occluder = occluder_at(contact.occluder);
     real level = max(contact.distance - lift, real(0.0));
     real approach = max(real(0.0), -dot(u, contact.normal)) * r;
     if (occluder.influence == INFLUENCE_SOFT) {
@@ -200,7 +201,7 @@ Contact emerge(INOUT(Vertex) vertex, real3 base, real3 offset, real r) {
     if (push > 0.0) {
         contact = contact_at(base + vertex.offset, vertex);
     }
-    if (contact.distance < -NEWTON_TOLERANCE * occluders[contact.occluder].step) {
+    if (contact.distance < -NEWTON_TOLERANCE * occluder_at(contact.occluder).step) {
         return contact;
     }
     vertex.inside = false;
@@ -235,12 +236,12 @@ Contact contact_step(INOUT(Vertex) vertex, Contact here, real3 base, real3 move,
     bool ok = put_on_level(held_offset, base, held, vertex);
     // Held on one smooth surface a vertex goes no farther than its step; farther is a jump across a corner.
     if (!ok || length(held_offset + move - vertex.offset) >
-                   2.0 * r + 4.0 * NEWTON_TOLERANCE * occluders[contact.occluder].step) {
+                   2.0 * r + 4.0 * NEWTON_TOLERANCE * occluder_at(contact.occluder).step) {
         vertex.offset -= move; // stay at the last position
         return here;
     }
     vertex.offset = held_offset;
-    real lowest = min(occluders[held.occluder].settle, vertex.settle);
+    real lowest = min(occluder_at(held.occluder).settle, vertex.settle);
     vertex.lift = min(vertex.lift - contact.clearance + held.clearance, held.distance - lowest);
     return held;
 }
@@ -286,8 +287,8 @@ void set_down(INOUT(Vertex) vertex, real3 base, Contact here) {
     vertex.offset -= vertex.lift * here.normal;
     for (uint i = 0u; i < 4u; ++i) {
         Contact contact = contact_at(base + vertex.offset, vertex);
-        real missing = min(occluders[contact.occluder].settle, vertex.settle) - contact.distance;
-        if (missing <= NEWTON_TOLERANCE * NEWTON_TOLERANCE * occluders[contact.occluder].step) {
+        real missing = min(occluder_at(contact.occluder).settle, vertex.settle) - contact.distance;
+        if (missing <= NEWTON_TOLERANCE * NEWTON_TOLERANCE * occluder_at(contact.occluder).step) {
             return;
         }
         vertex.offset += missing * contact.normal;
