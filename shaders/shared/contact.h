@@ -2,8 +2,8 @@
 // C++ and GLSL. "True-level contact": near an occluder a vertex is held at the level `margin`, which no
 // sampled field and no step can miss, and remembers by `lift` how far above its true level that is. The
 // includer provides, beside what occluder.h and shape_function.h need, `params`, `points`, `fields`,
-// `shapes`, `targets` and `start_distances`, `Occluder occluder_at(uint k)` (occluders[k] for a k that differs
-// between vertices), and for C++ the macro INOUT.
+// `shapes`, `targets` and `start_distances`, `Occluder occluder_at(uint k)` (occluders[k] for a k that
+// differs between vertices), and for C++ the macro INOUT.
 
 // The occluder that matters at a point: the one with the least clearance = distance - margin.
 struct Contact {

@@ -1,7 +1,8 @@
 // Signed distance (< 0 inside) and outward unit normal of occluders, alike in C++ and GLSL.
 // The includer provides the arrays `nodes` and `occluders` and `real4 volume_texel(uint volume, real3 uvw)`:
 // filtered (normal, distance) of a sampled field, uvw in [0, 1] between the outermost voxel centres.
-// `bool shape_is(uint kind, uint wanted)`: kind == wanted, where the includer may know that no node is of a kind.
+// `bool shape_is(uint kind, uint wanted)`: kind == wanted, where the includer may know that no node is of a
+// kind.
 
 struct Probe {
     real distance;
@@ -101,7 +102,8 @@ Probe cone_probe(real3 p, real radius, real half_height) {
                          : revolved(p, radial, -base, real(0.0), real(-1.0));
     }
     if (to_mantle) {
-        if (along > 0.0 && along < 1.0) { // not from mantle_radial / mantle: at the surface that is rounding alone
+        if (along > 0.0 &&
+            along < 1.0) { // not from mantle_radial / mantle: at the surface that is rounding alone
             return revolved(p, radial, mantle, normal_radial, normal_axial);
         }
         return mantle > 0.0 ? revolved(p, radial, mantle, mantle_radial / mantle, mantle_axial / mantle)
@@ -178,8 +180,9 @@ Probe combined(uint operation, Probe a, Probe b) {
     return a.distance >= b.distance ? a : b;
 }
 
-// The shape of `count` nodes from `first` at p, both in the occluder's space. One call of leaf_probe, and the top
-// of the stack apart from it: a device compiles the leaf once a call and keeps a single leaf out of memory.
+// The shape of `count` nodes from `first` at p, both in the occluder's space. One call of leaf_probe, and the
+// top of the stack apart from it: a device compiles the leaf once a call and keeps a single leaf out of
+// memory.
 Probe shape_probe(uint first, uint count, real3 p) {
     Probe below[MAX_SHAPE_STACK];
     Probe top;
