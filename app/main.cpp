@@ -3,7 +3,6 @@
 #include "app/cli/progress_bar.h"
 #include "engine/core/error.h"
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <csignal>
 #include <exception>
@@ -35,26 +34,10 @@ int fail(int status, const std::string& message) {
     return status;
 }
 
-std::string parse_message(const CLI::App& program, const CLI::ParseError& error) {
-    const std::vector<std::string> unknown = program.remaining();
-    if (program.get_subcommands().empty() && !unknown.empty()) {
-        return "there is no command or option \"" + unknown.front() + "\" (see anvil --help)";
-    }
-    std::string command = "anvil";
-    for (const CLI::App* used : program.get_subcommands()) {
-        command += " " + used->get_name();
-    }
-    return std::string(error.what()) + " (see " + command + " --help)";
-}
-
-int run(CLI::App& program, int argc, char** argv) {
+int run(anvil::Program& program, int argc, char** argv) {
     try {
-        program.parse(argc, argv);
+        program.run(argc, argv);
         return 0;
-    } catch (const CLI::Success& help_or_version) {
-        return program.exit(help_or_version);
-    } catch (const CLI::ParseError& error) {
-        return fail(2, parse_message(program, error));
     } catch (const anvil::InputError& error) {
         return fail(2, error.what());
     } catch (const anvil::DeviceError& error) {
@@ -77,12 +60,7 @@ int main(int argc, char** argv) {
     anvil::CommandContext context{{}, anvil::Progress(anvil::progress_bar())};
     listen_for_interrupts(context.progress);
 
-    CLI::App program("Deforms meshes with handles, past and around obstacles.", "anvil");
-    program.set_version_flag("--version", "anvil " ANVIL_VERSION, "Print the version and exit");
-    program.footer("Example:\n  anvil sample hand -o hand.ply && anvil info hand.ply\n\n"
-                   "Exit status: 0 done, 2 the input, 3 the device, 4 could not write, 1 a fault of Anvil, "
-                   "130 interrupted.");
-    program.require_subcommand(1);
+    anvil::Program program;
     anvil::add_forge(program, context);
     anvil::add_info(program, context);
     anvil::add_distance(program, context);
@@ -90,7 +68,9 @@ int main(int argc, char** argv) {
     anvil::add_sample(program, context);
     anvil::add_devices(program, context);
     anvil::add_selftest(program, context);
-    anvil::add_later_commands(program);
+    program.add_later_command("view", "Open a mesh or recipe in a window");
+    program.add_later_command("bake", "Write an occluder's distance field as a VDB level set");
+    program.add_later_command("bench", "Measure this machine");
 
     const int status = run(program, argc, argv);
     anvil::clear_progress_bar();

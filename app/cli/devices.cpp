@@ -2,7 +2,6 @@
 #include "app/cli/command.h"
 #include "engine/gpu/device.h"
 
-#include <CLI/CLI.hpp>
 #include <optional>
 
 namespace anvil {
@@ -34,10 +33,10 @@ std::string device_text(const DeviceInfo& device, bool taken) {
 
 } // namespace
 
-void add_devices(CLI::App& program, CommandContext& context) {
-    CLI::App* command = add_command(
-        program, "devices", "List the Vulkan devices and which one --device auto takes", "anvil devices");
-    command->callback([&context] {
+void add_devices(Program& program, CommandContext& context) {
+    Command command = program.add_command(
+        "devices", "List the Vulkan devices and which one --device auto takes", "anvil devices");
+    command.run([&context] {
         const std::vector<DeviceInfo> devices = devices_or_none(context.log);
         const std::optional<size_t> taken = automatic_device(devices);
         std::string text;

@@ -6,7 +6,6 @@
 #include "engine/forge/surface_resolver.h"
 #include "engine/mesh/mesh_reader.h"
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <memory>
 #include <optional>
@@ -95,28 +94,23 @@ void run(const Options& options, CommandContext& context) {
 
 } // namespace
 
-void add_distance(CLI::App& program, CommandContext& context) {
+void add_distance(Program& program, CommandContext& context) {
     auto options = std::make_shared<Options>();
-    CLI::App* command =
-        add_command(program, "distance", "Distance of every vertex from points of the surface, one per line",
-                    "anvil distance hand.ply --from v:1082 --radius 0.2 -o distances.txt");
-    command->add_option("mesh", options->mesh, "Mesh file: .obj, .ply, .stl, .off")->required();
-    command
-        ->add_option(
-            "--from", options->from,
-            "v:INDEX, f:FACE[.TRIANGLE]:b0,b1,b2, or x,y,z (the nearest surface point); may be repeated")
-        ->required()
-        ->allow_extra_args(false);
-    command->add_option("--radius", options->radius, "No farther than this; inf beyond");
-    command->add_option("--metric", options->metric, "Along the surface, or straight through space")
-        ->check(CLI::IsMember({"geodesic", "euclidean"}))
-        ->capture_default_str();
-    command->add_option("--method", options->method, "How geodesic distances are found")
-        ->check(CLI::IsMember({"auto", "approximate", "exact"}))
-        ->capture_default_str();
-    command->add_option("-o,--output", options->output, "Text file in place of standard output");
-    add_picture_options(*command, options->picture);
-    command->callback([options, &context] { run(*options, context); });
+    Command command =
+        program.add_command("distance", "Distance of every vertex from points of the surface, one per line",
+                            "anvil distance hand.ply --from v:1082 --radius 0.2 -o distances.txt");
+    command.positional("mesh", options->mesh, "Mesh file: .obj, .ply, .stl, .off");
+    command.repeated(
+        "--from", options->from,
+        "v:INDEX, f:FACE[.TRIANGLE]:b0,b1,b2, or x,y,z (the nearest surface point); may be repeated");
+    command.number("--radius", options->radius, "No farther than this; inf beyond");
+    command.choice("--metric", options->metric, {"geodesic", "euclidean"},
+                   "Along the surface, or straight through space");
+    command.choice("--method", options->method, {"auto", "approximate", "exact"},
+                   "How geodesic distances are found");
+    command.option("-o,--output", options->output, "Text file in place of standard output");
+    add_picture_options(command, options->picture);
+    command.run([options, &context] { run(*options, context); });
 }
 
 } // namespace anvil

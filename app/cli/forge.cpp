@@ -8,7 +8,6 @@
 #include "engine/mesh/mesh_writer.h"
 #include "engine/mesh/normals.h"
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -137,28 +136,26 @@ void run_forge(const ForgeArguments& arguments, CommandContext& context) {
 
 } // namespace
 
-void add_forge(CLI::App& program, CommandContext& context) {
+void add_forge(Program& program, CommandContext& context) {
     auto a = std::make_shared<ForgeArguments>();
-    CLI::App* command =
-        add_command(program, "forge", "Apply a recipe's edits to its mesh",
-                    "anvil forge grip.json -o grip.ply --image grip.png --report grip.report.json");
-    command->add_option("recipe", a->recipe, "Recipe file (JSON)")->required();
-    command->add_option("-o,--output", a->out, "Mesh to write (default: the recipe's name with .forged.ply)");
-    command->add_option("--mesh", a->mesh, "Mesh to use in place of the recipe's");
-    command->add_option("--device", a->device, "auto, cpu (double precision), a device's name or index");
-    command
-        ->add_option("--precision", a->precision, "Numbers of the written mesh (default: as the input needs)")
-        ->check(CLI::IsMember({"auto", "float", "double"}));
-    command->add_option("--image", a->image, "Picture to write (PNG)");
-    command->add_option("--size", a->size, "Of the picture, WxH");
-    command->add_option("--view", a->view,
-                        "Of the picture: front, right, top, or a direction x,y,z to the eye");
-    command->add_option("--report", a->report, "Report to write (JSON)");
-    command->add_option("--parents", a->parents, "Origin of refined vertices (not yet)");
-    command->add_option("--delta", a->delta, "Blend shape of the original vertices (not yet)");
-    command->add_flag("--dry-run", a->dry_run, "Say what refinement would add (not yet)");
-    command->add_flag("--quiet", a->quiet, "Print warnings and errors only");
-    command->callback([a, &context] { run_forge(*a, context); });
+    Command command =
+        program.add_command("forge", "Apply a recipe's edits to its mesh",
+                            "anvil forge grip.json -o grip.ply --image grip.png --report grip.report.json");
+    command.positional("recipe", a->recipe, "Recipe file (JSON)");
+    command.option("-o,--output", a->out, "Mesh to write (default: the recipe's name with .forged.ply)");
+    command.option("--mesh", a->mesh, "Mesh to use in place of the recipe's");
+    command.option("--device", a->device, "auto, cpu (double precision), a device's name or index");
+    command.choice("--precision", a->precision, {"auto", "float", "double"},
+                   "Numbers of the written mesh; auto: as the input needs");
+    command.option("--image", a->image, "Picture to write (PNG)");
+    command.option("--size", a->size, "Of the picture, WxH");
+    command.option("--view", a->view, "Of the picture: front, right, top, or a direction x,y,z to the eye");
+    command.option("--report", a->report, "Report to write (JSON)");
+    command.option("--parents", a->parents, "Origin of refined vertices (not yet)");
+    command.option("--delta", a->delta, "Blend shape of the original vertices (not yet)");
+    command.flag("--dry-run", a->dry_run, "Say what refinement would add (not yet)");
+    command.flag("--quiet", a->quiet, "Print warnings and errors only");
+    command.run([a, &context] { run_forge(*a, context); });
 }
 
 } // namespace anvil

@@ -1,7 +1,5 @@
 #include "app/cli/picture_options.h"
 
-#include <CLI/CLI.hpp>
-
 namespace anvil {
 
 PictureSize PictureOptions::size() const {
@@ -12,15 +10,11 @@ PictureView PictureOptions::view() const {
     return view_text.empty() ? PictureView() : parse_view(view_text);
 }
 
-void add_picture_options(CLI::App& command, PictureOptions& options) {
-    const PictureSize size;
-    CLI::Option* image = command.add_option("--image", options.path, "Picture to draw (.png)");
-    command
-        .add_option("--size", options.size_text,
-                    "Size of the picture, WxH [" + std::to_string(size.width) + "x" +
-                        std::to_string(size.height) + "]")
-        ->needs(image);
-    command.add_option("--view", options.view_text, "Where from: front, right, top or x,y,z")->needs(image);
+void add_picture_options(Command& command, PictureOptions& options) {
+    command.option("--image", options.path, "Picture to draw (.png)");
+    command.option("--size", options.size_text, "Of the picture, WxH");
+    command.option("--view", options.view_text,
+                   "Of the picture: front, right, top, or a direction x,y,z to the eye");
 }
 
 void write_picture(Device& device, std::span<const PictureSurface> surfaces, const PictureOptions& options) {

@@ -1,16 +1,13 @@
 // `--image`, `--size` and `--view`, the same for every command that draws.
 #pragma once
 
+#include "app/cli/command.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/offscreen_renderer.h"
 #include "engine/gpu/picture.h"
 
 #include <span>
 #include <string>
-
-namespace CLI {
-class App;
-}
 
 namespace anvil {
 
@@ -24,7 +21,7 @@ struct PictureOptions {
     PictureView view() const; ///< @throws InputError
 };
 
-void add_picture_options(CLI::App& command, PictureOptions& options);
+void add_picture_options(Command& command, PictureOptions& options);
 
 /// Draws and writes the PNG file. @throws DeviceError, WriteError
 void write_picture(Device& device, std::span<const PictureSurface> surfaces, const PictureOptions& options);

@@ -6,7 +6,6 @@
 #include "engine/edit/recipe_json.h"
 #include "engine/occluder/occluder_set.h"
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <memory>
 #include <string_view>
@@ -111,16 +110,16 @@ std::string probe(const OccluderSet& occluders, const std::vector<Vec3>& points)
 
 } // namespace
 
-void add_probe(CLI::App& program, CommandContext& context) {
+void add_probe(Program& program, CommandContext& context) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = add_command(
-        program, "probe",
+    Command command = program.add_command(
+        "probe",
         "Signed distance (negative inside) and outward normal of a recipe's nearest occluder at points",
         "anvil probe grip.json points.txt -o distances.txt");
-    command->add_option("recipe", options->recipe, "Recipe file (JSON)")->required();
-    command->add_option("points", options->points, "Text file, a point x y z a line")->required();
-    command->add_option("-o,--output", options->output, "Text file in place of standard output");
-    command->callback([options, &context] {
+    command.positional("recipe", options->recipe, "Recipe file (JSON)");
+    command.positional("points", options->points, "Text file, a point x y z a line");
+    command.option("-o,--output", options->output, "Text file in place of standard output");
+    command.run([options, &context] {
         const Recipe recipe = read_recipe(options->recipe);
         const std::vector<Vec3> points = read_points(options->points);
         write_text(options->output, probe(build_occluders(recipe, context.progress), points));

@@ -4,7 +4,6 @@
 #include "engine/core/error.h"
 #include "engine/core/number_text.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 
@@ -56,14 +55,12 @@ void run(const std::string& device, CommandContext& context) {
 
 } // namespace
 
-void add_selftest(CLI::App& program, CommandContext& context) {
+void add_selftest(Program& program, CommandContext& context) {
     auto device = std::make_shared<std::string>("auto");
-    CLI::App* command =
-        add_command(program, "selftest", "Hold a device against the double-precision reference",
-                    "anvil selftest --device auto");
-    command->add_option("--device", *device, "auto, cpu, or a Vulkan device by name or index")
-        ->capture_default_str();
-    command->callback([device, &context] { run(*device, context); });
+    Command command = program.add_command("selftest", "Hold a device against the double-precision reference",
+                                          "anvil selftest --device auto");
+    command.option("--device", *device, "auto, cpu, or a Vulkan device by name or index");
+    command.run([device, &context] { run(*device, context); });
 }
 
 } // namespace anvil
