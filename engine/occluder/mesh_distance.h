@@ -1,0 +1,17 @@
+// Any triangle mesh as a solid.
+#pragma once
+
+#include "engine/mesh/mesh.h"
+#include "engine/occluder/exact_distance.h"
+
+#include <memory>
+
+namespace anvil {
+
+/// Exact distance to the mesh's surface; inside where the generalized winding number exceeds 1/2 in
+/// magnitude, so that open, self-intersecting, non-manifold, inverted and partly flipped meshes have the
+/// inside that a person sees. Nothing is inside beyond the mesh's bounds.
+/// @throws InputError if the mesh has no triangle.
+std::shared_ptr<const ExactDistance> mesh_distance(const Mesh& mesh);
+
+} // namespace anvil

@@ -1,0 +1,46 @@
+// How often a triangle soup goes around a point: the inside test that holes, overlaps and flipped faces
+// survive.
+#pragma once
+
+#include "engine/core/types.h"
+
+#include <span>
+#include <vector>
+
+namespace anvil {
+
+/// Generalized winding number of triangles (Jacobson, Kavan, Sorkine-Hornung 2013): 1 inside and 0 outside a
+/// closed surface oriented outwards, -1 inside one oriented inwards, in between near holes. Far triangles are
+/// summed by a tree of dipoles with their first derivative (after Barill et al. 2018): off by under 0.01.
+/// Built once, used const, from any number of threads.
+class WindingNumber {
+  public:
+    /// `triangles` index `positions`, all finite. Triangles without area count nothing.
+    WindingNumber(std::span<const Vec3> positions, std::span<const Triangle> triangles);
+
+    double at(const Vec3& p) const;
+
+  private:
+    struct Corners {
+        Vec3 a, b, c;
+    };
+    /// Moments of the triangles below: area-weighted centre, vector area, first moment of the vector area.
+    struct Node {
+        Vec3 centre{0};
+        Vec3 area{0};
+        glm::dmat3 moment{0}; ///< column i: sum of (centre_t - centre)[i] area_t
+        double reach = 0;     ///< of the farthest corner from the centre
+        uint32_t first = 0;   ///< triangles [first, first + count)
+        uint32_t count = 0;
+        uint32_t right = 0; ///< second child; the first one follows its parent. 0: a leaf
+    };
+
+    uint32_t build(uint32_t first, uint32_t count);
+    void measure(Node& node) const;
+    static double far_field(const Node& node, const Vec3& arm, double distance);
+
+    std::vector<Corners> triangles_;
+    std::vector<Node> nodes_;
+};
+
+} // namespace anvil

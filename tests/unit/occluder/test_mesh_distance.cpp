@@ -1,0 +1,105 @@
+#include "engine/core/error.h"
+#include "engine/mesh/sample_shapes.h"
+#include "engine/occluder/mesh_distance.h"
+#include "engine/occluder/winding_number.h"
+#include "tests/support/contact_scene.h"
+
+#include <catch2/catch.hpp>
+
+using namespace anvil;
+using test::random_in;
+
+namespace {
+
+void flip(Mesh& mesh, double share, uint32_t seed) {
+    std::mt19937 random(seed);
+    for (Triangle& t : mesh.triangles) {
+        if (random() < share * 4294967296.0) {
+            std::swap(t[1], t[2]);
+        }
+    }
+}
+
+/// Share of random points, farther than `near` from the unit sphere, whose sign is not the sphere's.
+double wrong_signs(const Mesh& mesh, double near) {
+    const auto solid = mesh_distance(mesh);
+    std::mt19937 random(5);
+    int wrong = 0;
+    int counted = 0;
+    while (counted < 4000) {
+        const Vec3 p = random_in(random, Vec3(-1.3), Vec3(1.3));
+        const double truth = glm::length(p) - 1;
+        if (std::abs(truth) > near) {
+            ++counted;
+            wrong += (solid->at(p).distance < 0) != (truth < 0) ? 1 : 0;
+        }
+    }
+    return wrong / 4000.0;
+}
+
+} // namespace
+
+TEST_CASE("the winding number is the sum of all solid angles, one inside and none outside") {
+    const Mesh mesh = make_sample("torus", 3000);
+    const WindingNumber winding(mesh.positions, mesh.triangles);
+    std::mt19937 random(3);
+    for (int i = 0; i < 3000; ++i) {
+        const Vec3 p = random_in(random, Vec3(-1.5), Vec3(1.5));
+        const double tube = std::hypot(std::hypot(p.x, p.z) - 1, p.y) - 0.4;
+        if (std::abs(tube) > 0.01) { // the mesh's own coarseness
+            CHECK(winding.at(p) == Approx(tube < 0 ? 1 : 0).margin(0.01));
+        }
+    }
+}
+
+TEST_CASE("the distance to a fine sphere mesh is that to the sphere, with its normal") {
+    const auto solid = mesh_distance(make_sample("icosphere", 10242));
+    std::mt19937 random(4);
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 p = random_in(random, Vec3(-1.5), Vec3(1.5));
+        const SignedDistance s = solid->at(p);
+        // Sagitta of an edge of 0.04: 0.04^2 / 8, and as much again across the face.
+        CHECK(std::abs(s.distance - (glm::length(p) - 1)) < 4e-4);
+        if (std::abs(s.distance) > 0.05) {
+            CHECK(glm::dot(s.normal, p) > 0.99 * glm::length(p));
+        }
+    }
+}
+
+TEST_CASE("open, inverted, doubled, overlapping and partly flipped meshes keep their inside") {
+    const Mesh whole = make_sample("icosphere", 2562);
+    CHECK(wrong_signs(whole, 0.01) == 0);
+
+    Mesh inverted = whole;
+    flip(inverted, 1, 1);
+    CHECK(wrong_signs(inverted, 0.01) == 0);
+
+    Mesh open = whole; // a hole of about 2 % of the area
+    std::erase_if(open.triangles, [&](const Triangle& t) { return whole.positions[t[0]].y > 0.96; });
+    CHECK(wrong_signs(open, 0.05) < 2e-3);
+
+    Mesh doubled = whole;
+    doubled.triangles.insert(doubled.triangles.end(), whole.triangles.begin(), whole.triangles.end());
+    CHECK(wrong_signs(doubled, 0.01) == 0);
+
+    Mesh overlapping = whole; // a second, smaller ball inside: the winding number is 2 there
+    const auto count = static_cast<uint32_t>(whole.vertex_count());
+    for (const Vec3& p : whole.positions) {
+        overlapping.positions.push_back(0.3 * p + Vec3(0.6, 0, 0));
+    }
+    for (const Triangle& t : whole.triangles) {
+        overlapping.triangles.push_back({t[0] + count, t[1] + count, t[2] + count});
+    }
+    const auto solid = mesh_distance(overlapping);
+    CHECK(solid->at(Vec3(0.6, 0, 0)).distance < 0);
+    CHECK(solid->at(Vec3(-0.9, 0, 0)).distance < 0);
+    CHECK(solid->at(Vec3(1.2, 0, 0)).distance > 0);
+
+    Mesh flipped = whole;
+    flip(flipped, 0.05, 2);
+    CHECK(wrong_signs(flipped, 0.02) <= 0.002);
+}
+
+TEST_CASE("a mesh without triangles is no occluder") {
+    CHECK_THROWS_AS(mesh_distance(Mesh{}), InputError);
+}
