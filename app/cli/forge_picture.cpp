@@ -1,8 +1,8 @@
 #include "app/cli/forge_picture.h"
 
 #include "engine/gpu/offscreen_renderer.h"
-#include "engine/occluder/exact_distance.h"
 #include "engine/occluder/shape_nodes.h"
+#include "engine/occluder/solid.h"
 
 #include <list>
 #include <set>
@@ -40,7 +40,8 @@ Mesh plane_patch(const PlaneShape& plane, const Vec3& near, double half) {
     return mesh;
 }
 
-DrawnSurface occluder_surface(const Occluder& occluder, const Transform& pose, const Box& scene) {
+DrawnSurface occluder_surface(const Occluder& occluder, const Transform& pose, const Box& scene,
+                              const std::filesystem::path& folder) {
     const Placement place = placement(pose);
     Mesh mesh;
     if (const auto* plane = std::get_if<PlaneShape>(&occluder.shape.solid)) {
@@ -49,7 +50,7 @@ DrawnSurface occluder_surface(const Occluder& occluder, const Transform& pose, c
                         glm::dot(place.axes[2], arm));
         mesh = plane_patch(*plane, near, 0.6 * scene.diagonal() / place.scale);
     } else if (is_bounded(occluder.shape)) {
-        mesh = surface_of(*formula_distance(shape_nodes(occluder.shape)), occluder_cells);
+        mesh = solid_surface(occluder.shape, {folder, nullptr}, occluder_cells);
     }
     for (Vec3& p : mesh.positions) {
         p = place.origin + place.scale * (place.axes[0] * p.x + place.axes[1] * p.y + place.axes[2] * p.z);
@@ -84,7 +85,8 @@ Picture forge_picture(Device& device, const Mesh& mesh, const Recipe& recipe, co
     const Box scene = box_of(result.positions);
     std::list<DrawnSurface> occluders;
     for (const OccluderUse& use : drawn_occluders(recipe)) {
-        occluders.push_back(occluder_surface(*find_occluder(recipe, use.name), *use.transform, scene));
+        occluders.push_back(
+            occluder_surface(*find_occluder(recipe, use.name), *use.transform, scene, recipe_folder(recipe)));
     }
     const auto positions = relative(result.positions, scene.centre());
     std::vector<PictureSurface> surfaces{{positions, mesh.triangles, result.weights}};

@@ -74,7 +74,8 @@ OccluderSet build_occluders(const Recipe& recipe, Progress& progress) {
     for (size_t i = 0; i < recipe.occluders.size(); ++i) {
         const Occluder& occluder = recipe.occluders[i];
         try {
-            const OccluderModel model = build_model(occluder.shape, Field{}, progress);
+            const OccluderModel model =
+                build_model(occluder.shape, Field{}, progress, {recipe_folder(recipe), nullptr});
             add_occluder(set, model, occluder.name, occluder.transform, occluder.influence, {Vec3(0), 1, 1});
         } catch (const InputError& error) {
             throw InputError(recipe.file + ": occluders[" + std::to_string(i) + "] \"" + occluder.name +

@@ -94,6 +94,10 @@ size_t finish_contact(const OccluderSet& set, std::span<const Vec3> starts, cons
 void measure_vertices(const OccluderSet& set, std::span<const Vec3> ends, const std::vector<bool>& inside,
                       ContactReport& report) {
     const double limit = reported_depth(set);
+    double near = 1e3 * limit;
+    for (const auto& occluder : set.occluders) {
+        near = std::max(near, 1e3 * limit + occluder.settle);
+    }
     std::mutex mutex;
     parallel_for(ends.size(), 512, [&](size_t begin, size_t end) {
         size_t count = 0;
@@ -104,7 +108,7 @@ void measure_vertices(const OccluderSet& set, std::span<const Vec3> ends, const 
             const double depth = inside[i] ? 0 : -distance;
             deepest = std::max(deepest, depth);
             count += depth > limit ? 1 : 0;
-            touching += std::abs(distance) <= 1e3 * limit ? 1 : 0;
+            touching += std::abs(distance) <= near ? 1 : 0;
         }
         const std::lock_guard lock(mutex);
         report.penetrating_vertices += count;

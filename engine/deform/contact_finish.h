@@ -20,7 +20,7 @@ struct ContactReport {
     double deepest_dip = 0; ///< deepest sampled point of a penetrating triangle
     size_t finished_on_cpu = 0;
     size_t contact_vertices =
-        0; ///< of the region, that end within 1e-3 of the occluder's size of its surface
+        0; ///< of the region, within 1e-3 of the occluder's size of where fields set down
 };
 
 /// Moves each point of `ends` that is inside an occluder, although its `start` was outside, to the closest

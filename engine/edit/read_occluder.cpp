@@ -51,6 +51,13 @@ PlaneShape read_plane(const JsonReader& shape) {
     return plane;
 }
 
+MeshShape read_mesh_shape(const JsonReader& file) {
+    if (file.text().empty()) {
+        file.fail_found("must be the path of a mesh file, relative to the recipe");
+    }
+    return {file.text()};
+}
+
 CsgPart read_part(const JsonReader& part) {
     part.check_keys({"name", "shape", "transform", "influence", "field"}, {"motion"});
     for (const char* key : {"influence", "field"}) {
@@ -92,6 +99,9 @@ OccluderShape::Solid read_solid(const std::string& kind, const JsonReader& shape
     }
     if (kind == "plane") {
         return read_plane(shape);
+    }
+    if (kind == "mesh") {
+        return read_mesh_shape(shape);
     }
     if (kind == "union" || kind == "intersection" || kind == "subtract") {
         return read_csg(shape, kind == "union"      ? CsgOperation::unite
@@ -161,6 +171,9 @@ std::optional<Field> read_field(const JsonReader& occluder, const OccluderShape&
     if (const auto resolution = field->find("resolution")) {
         result.resolution = resolution->whole(8, 1024);
     }
+    if (result.kind == FieldKind::exact && !has_formula(shape)) {
+        field->fail("a mesh has no formula: use \"kind\": \"dense\", or leave \"field\" out");
+    }
     if (result.kind == FieldKind::dense && !is_bounded(shape)) {
         field->fail(
             "a plane cannot be baked, since no box holds it; use \"kind\": \"exact\", or cut it off by an "
@@ -219,9 +232,9 @@ Influence read_influence(const JsonReader& influence) {
 }
 
 OccluderShape read_occluder_shape(const JsonReader& shape) {
-    const std::vector<std::string> kinds{"sphere", "box",   "cylinder", "capsule",      "cone",
-                                         "torus",  "plane", "union",    "intersection", "subtract"};
-    shape.check_keys(kinds, {"mesh", "vdb", "grid"});
+    const std::vector<std::string> kinds{"sphere", "box",  "cylinder", "capsule",      "cone",    "torus",
+                                         "plane",  "mesh", "union",    "intersection", "subtract"};
+    shape.check_keys(kinds, {"vdb", "grid"});
     std::optional<OccluderShape::Solid> solid;
     for (const std::string& kind : kinds) {
         if (!shape.has(kind)) {

@@ -31,8 +31,27 @@ bool is_bounded(const OccluderShape& shape) {
     throw InternalError("a CSG operation without a meaning");
 }
 
+bool has_formula(const OccluderShape& shape) {
+    const auto* csg = std::get_if<CsgShape>(&shape.solid);
+    if (!csg) {
+        return !std::holds_alternative<MeshShape>(shape.solid);
+    }
+    return std::all_of(csg->parts.begin(), csg->parts.end(),
+                       [](const CsgPart& part) { return has_formula(part.shape); });
+}
+
+Field field_of(const Occluder& occluder) {
+    const Field fallback{has_formula(occluder.shape) ? FieldKind::exact : FieldKind::dense,
+                         Field{}.resolution};
+    return occluder.field.value_or(fallback);
+}
+
+std::filesystem::path recipe_folder(const Recipe& recipe) {
+    return std::filesystem::path(recipe.file).parent_path();
+}
+
 std::filesystem::path mesh_path(const Recipe& recipe) {
-    return std::filesystem::path(recipe.file).parent_path() / recipe.mesh;
+    return recipe_folder(recipe) / recipe.mesh;
 }
 
 const Occluder* find_occluder(const Recipe& recipe, const std::string& name) {

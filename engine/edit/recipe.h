@@ -146,10 +146,17 @@ struct CsgShape {
     bool operator==(const CsgShape& other) const;
 };
 
+/// A triangle or polygon mesh as a solid, in the mesh's own coordinates.
+struct MeshShape {
+    std::string file; ///< as written: relative to the recipe's folder
+
+    bool operator==(const MeshShape&) const = default;
+};
+
 /// The solid of an occluder.
 struct OccluderShape {
     using Solid = std::variant<SphereShape, BoxShape, CylinderShape, CapsuleShape, ConeShape, TorusShape,
-                               PlaneShape, CsgShape>;
+                               PlaneShape, MeshShape, CsgShape>;
     Solid solid;
 
     bool operator==(const OccluderShape&) const = default;
@@ -167,6 +174,9 @@ struct CsgPart {
 /// Whether the solid lies in some ball, as far as its operations tell: a plane does not, a union must be
 /// bounded in all parts, an intersection in one, a difference in the first.
 bool is_bounded(const OccluderShape& shape);
+
+/// Whether the shape has a formula that kernels evaluate: no mesh is part of it.
+bool has_formula(const OccluderShape& shape);
 
 enum class FieldKind { exact, dense };
 
@@ -240,6 +250,12 @@ std::filesystem::path mesh_path(const Recipe& recipe);
 /// The uses that hold for an edit: its own, or all occluders of the recipe; every entry with transform and
 /// influence filled in. Names must be known.
 std::vector<OccluderUse> occluders_of(const Recipe& recipe, const Edit& edit);
+
+/// How the occluder is evaluated: its own field, or the default: exact where there is a formula, else dense.
+Field field_of(const Occluder& occluder);
+
+/// The folder that the recipe's paths are relative to.
+std::filesystem::path recipe_folder(const Recipe& recipe);
 
 /// The occluder of that name; nullptr if there is none.
 const Occluder* find_occluder(const Recipe& recipe, const std::string& name);

@@ -22,6 +22,7 @@ struct SolidWriter {
     Json operator()(const PlaneShape& s) const {
         return {{"plane", {{"normal", written(s.normal)}, {"offset", s.offset}}}};
     }
+    Json operator()(const MeshShape& s) const { return {{"mesh", s.file}}; }
     Json operator()(const CsgShape& s) const {
         Json parts = Json::array();
         for (const CsgPart& part : s.parts) {

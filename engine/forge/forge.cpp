@@ -63,8 +63,8 @@ class Forger {
         for (size_t i = 0; i < recipe_.occluders.size(); ++i) {
             const Occluder& occluder = recipe_.occluders[i];
             try {
-                models_.emplace(occluder.name,
-                                build_model(occluder.shape, occluder.field.value_or(Field{}), progress_));
+                models_.emplace(occluder.name, build_model(occluder.shape, field_of(occluder), progress_,
+                                                           {recipe_folder(recipe_), &log_}));
             } catch (const InputError& error) {
                 throw InputError("occluders[" + std::to_string(i) + "] \"" + occluder.name +
                                  "\": " + error.what());

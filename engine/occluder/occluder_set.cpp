@@ -85,13 +85,16 @@ SignedDistance in_world(const k::Occluder& occluder, const ExactDistance& exact,
 
 } // namespace
 
-OccluderModel build_model(const OccluderShape& shape, const Field& field, Progress& progress) {
+OccluderModel build_model(const OccluderShape& shape, const Field& field, Progress& progress,
+                          const SolidSource& source) {
     OccluderModel model;
-    model.nodes = shape_nodes(shape);
-    model.exact = formula_distance(model.nodes);
+    if (has_formula(shape)) {
+        model.nodes = shape_nodes(shape);
+    }
+    model.exact = solid_distance(shape, source);
     model.bounds = model.exact->bounds();
     if (field.kind == FieldKind::dense) {
-        if (model.nodes.size() > 1) {
+        if (std::holds_alternative<CsgShape>(shape.solid)) {
             model.exact = redistanced(model.exact, std::max(least_cells, static_cast<int>(field.resolution)));
         }
         model.volumes.push_back(

@@ -6,6 +6,7 @@
 #include "engine/occluder/distance_volume.h"
 #include "engine/occluder/exact_distance.h"
 #include "engine/occluder/kernel_types.h"
+#include "engine/occluder/solid.h"
 
 #include <memory>
 #include <string>
@@ -37,8 +38,11 @@ struct OccluderModel {
     Box bounds; ///< in the occluder's space; infinite for unbounded shapes
 };
 
-/// @throws InputError if a baked shape is unbounded, or the Boolean tree is too deep for the kernels.
-OccluderModel build_model(const OccluderShape& shape, const Field& field, Progress& progress);
+/// With an exact field, a shape without a formula has no nodes: good for exact distances alone.
+/// @throws InputError if a baked shape is unbounded, the Boolean tree is too deep for the kernels, or a mesh
+/// file cannot be read.
+OccluderModel build_model(const OccluderShape& shape, const Field& field, Progress& progress,
+                          const SolidSource& source = {});
 
 /// What the occluders' defaults refer to.
 struct OccluderScale {

@@ -48,6 +48,7 @@ struct LeafNode {
     k::ShapeNode operator()(const PlaneShape& s) const {
         return make(k::SHAPE_PLANE, s.normal / glm::length(s.normal), s.offset);
     }
+    k::ShapeNode operator()(const MeshShape&) const { throw InternalError("a mesh has no formula"); }
     k::ShapeNode operator()(const CsgShape&) const { throw InternalError("a Boolean shape is no leaf"); }
 
     static k::ShapeNode make(uint32_t kind, const Vec3& size, double extra) {
