@@ -30,7 +30,7 @@ double largest_component(const Scene& scene) {
 
 } // namespace
 
-DeformInput scene_input(const Scene& scene) {
+DeformInput scene_input(const Scene& scene, const OccluderSet& occluders) {
     const size_t n = scene.points.size();
     DeformInput input;
     input.points = scene.points;
@@ -45,7 +45,7 @@ DeformInput scene_input(const Scene& scene) {
             input.fields[j * n + i] = 1 - std::max(0.0, j % 2 == 0 ? along : -along);
         }
     }
-    input.occluders = occluder_set(scene);
+    input.occluders = occluders;
     find_start_distances(input);
     return input;
 }
@@ -61,8 +61,12 @@ DeformMotion scene_motion(const Scene& scene) {
 }
 
 SceneResult run_scene(const Scene& scene, Backend& backend, bool finish) {
+    return run_scene(scene, occluder_set(scene), backend, finish);
+}
+
+SceneResult run_scene(const Scene& scene, const OccluderSet& occluders, Backend& backend, bool finish) {
     SceneResult out;
-    out.input = scene_input(scene);
+    out.input = scene_input(scene, occluders);
     const auto session = backend.prepare(out.input);
     session->update(scene_motion(scene));
     out.results = session->download();

@@ -40,9 +40,11 @@ struct SceneResult {
 };
 
 OccluderSet occluder_set(const Scene& scene);
-DeformInput scene_input(const Scene& scene);
+DeformInput scene_input(const Scene& scene, const OccluderSet& occluders);
 DeformMotion scene_motion(const Scene& scene);
-/// Runs the scene on a back end; `finish` adds the exact CPU finish.
+/// Runs the scene on a back end, with these occluders in place of its own; `finish` adds the exact CPU
+/// finish.
+SceneResult run_scene(const Scene& scene, const OccluderSet& occluders, Backend& backend, bool finish);
 SceneResult run_scene(const Scene& scene, Backend& backend, bool finish);
 
 inline Vec3 random_in(std::mt19937& random, const Vec3& low, const Vec3& high) {

@@ -436,7 +436,6 @@ TEST_CASE("keys of later versions say not yet") {
     check_complaint(minimal(R"(, "smooth_surface": 3)"), {"smooth_surface", "not yet"});
     check_complaint(minimal(R"(, "mirror": {"axis": "x", "origin": 0})"), {"mirror", "not yet"});
     check_complaint(minimal(R"(, "dilation": {"form": "depth"})"), {"dilation", "not yet"});
-    check_complaint(with_shape(R"({"mesh": "tool.obj"})"), {"occluders[0].shape.mesh", "not yet"});
     check_complaint(with_shape(R"({"vdb": "tool.vdb", "grid": "surface"})"), {"not yet"});
     check_complaint(with_occluder(ball + R"(, "field": {"kind": "adaptive"})"),
                     {"field.kind", "not yet", "dense"});
@@ -561,4 +560,16 @@ TEST_CASE("a recipe file that cannot be read is named") {
     CHECK(recipe.file == file.string());
     CHECK(mesh_path(recipe) == folder / "a.ply");
     std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("A mesh is an occluder's shape by its file, baked densely unless it is part of nothing exact") {
+    const Recipe recipe = parse_recipe(with_shape(R"({"mesh": "tool.obj"})"), "folder/recipe.json");
+    CHECK(std::get<MeshShape>(recipe.occluders[0].shape.solid).file == "tool.obj");
+    CHECK_FALSE(has_formula(recipe.occluders[0].shape));
+    CHECK(field_of(recipe.occluders[0]).kind == FieldKind::dense);
+    CHECK(recipe_folder(recipe) == "folder");
+    CHECK(parse_recipe(write_recipe(recipe), "folder/recipe.json") == recipe);
+    check_complaint(with_shape(R"({"mesh": ""})"), {"occluders[0].shape.mesh", "path of a mesh file"});
+    check_complaint(with_occluder(R"("shape": {"mesh": "tool.obj"}, "field": {"kind": "exact"})"),
+                    {"field", "no formula", "dense"});
 }

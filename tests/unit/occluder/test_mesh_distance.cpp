@@ -1,8 +1,10 @@
 #include "engine/core/error.h"
+#include "engine/mesh/mesh_writer.h"
 #include "engine/mesh/sample_shapes.h"
 #include "engine/occluder/mesh_distance.h"
 #include "engine/occluder/winding_number.h"
 #include "tests/support/contact_scene.h"
+#include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
 
@@ -102,4 +104,42 @@ TEST_CASE("open, inverted, doubled, overlapping and partly flipped meshes keep t
 
 TEST_CASE("a mesh without triangles is no occluder") {
     CHECK_THROWS_AS(mesh_distance(Mesh{}), InputError);
+}
+
+TEST_CASE("nothing that started outside ends inside a mesh, closed or open, alone or in a Boolean shape") {
+    const ScratchFolder folder;
+    Mesh tool = make_sample("torus", 3000);
+    write_mesh(folder / "torus.ply", tool, tool.positions);
+    std::erase_if(tool.triangles, [&](const Triangle& t) { return tool.positions[t[0]].x > 1.37; });
+    Mesh open;
+    open.positions = tool.positions;
+    for (const Triangle& t : tool.triangles) {
+        open.add_polygon(t);
+    }
+    triangulate(open);
+    write_mesh(folder / "open.ply", open, open.positions);
+    const CsgShape half{CsgOperation::subtract,
+                        {{"", {MeshShape{"torus.ply"}}, {}}, {"", {BoxShape{Vec3(2), 0}}, {{0, 2, 0}}}}};
+    for (const OccluderShape& shape :
+         {OccluderShape{MeshShape{"torus.ply"}}, OccluderShape{MeshShape{"open.ply"}}, OccluderShape{half}}) {
+        Log log;
+        Progress progress;
+        const OccluderModel model =
+            build_model(shape, {FieldKind::dense, 64}, progress, {folder.path(), &log});
+        OccluderSet set;
+        add_occluder(set, model, "tool", {}, {InfluenceKind::hard, 0.9, {}, {}, 0}, {Vec3(0), 3, 1});
+        test::Scene scene;
+        std::mt19937 random(6);
+        while (scene.points.size() < 300) {
+            const Vec3 p = random_in(random, Vec3(-1.6), Vec3(1.6));
+            if (exact_distance(set, p).distance > 0) {
+                scene.points.push_back(p);
+                scene.displacements.push_back(-2.0 * p + random_in(random, Vec3(-0.5), Vec3(0.5)));
+            }
+        }
+        const test::SceneResult result = test::run_scene(scene, set, *make_cpu_backend(), true);
+        for (const Vec3& end : result.ends) {
+            CHECK(exact_distance(set, end).distance >= -1e-6 * set.sizes[0]);
+        }
+    }
 }
