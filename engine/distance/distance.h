@@ -23,6 +23,14 @@ struct DistanceField {
     std::vector<double> dense(size_t vertex_count) const;
 };
 
+/// Sources of any kind together.
+struct DistanceSources {
+    std::vector<SurfacePoint> points;
+    /// Lines along the surface; points that follow each other lie in one triangle or on its rim.
+    std::vector<std::vector<SurfacePoint>> polylines;
+    std::vector<uint32_t> triangles; ///< whole triangles (of Mesh::triangles)
+};
+
 /// Geodesic distances over a triangulated surface of any kind: edges with any number of faces, boundaries,
 /// several components, faces without area, isolated vertices. Prepared once per mesh and positions, O(mesh);
 /// a call costs what its region costs. Edge lengths alone matter, so place and scale of the mesh do not:
@@ -42,6 +50,12 @@ class GeodesicSolver {
     /// @throws InputError if the radius is NaN or negative, a source names no triangle or vertex of the mesh,
     ///         or its weights are negative or do not sum to 1.
     DistanceField solve(std::span<const SurfacePoint> sources, double radius = infinity,
+                        DistanceMethod method = DistanceMethod::automatic) const;
+
+    /// The same for points, polylines and whole triangles. `exact` is exact to rounding for points; lines add
+    /// up to 1e-8 of their pieces' lengths.
+    /// @throws InputError also if two points that follow each other in a polyline share no triangle.
+    DistanceField solve(const DistanceSources& sources, double radius = infinity,
                         DistanceMethod method = DistanceMethod::automatic) const;
 
   private:

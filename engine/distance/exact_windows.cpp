@@ -14,6 +14,7 @@ constexpr double better = 1 - 1e-15;
 constexpr double clearly_worse = 1 + 1e-11;
 constexpr double least_width = 1e-13; // of the side: narrower windows are rounding
 constexpr double cover_slack = 1e-9;  // of the side: a corner at a window's rim is covered by both neighbours
+constexpr double far_behind = 1e7;    // of a line's length
 constexpr double wedge_slack = 1e-10; // radians
 
 // Real meshes need 5 to 100 windows a vertex; the worst case is quadratic.
@@ -45,6 +46,8 @@ ExactWindows::ExactWindows(const TriangleGraph& graph, const WindowTable& table)
       queue_(table.mean_length, 4 * graph.longest_side + table.mean_length) {}
 
 void ExactWindows::push(const Window& window, double key) {
+    // The distance to a line is rounded in units of its far centre and may come out below 0.
+    key = std::max(key, 0.0);
     if (queue_.bucket_of(key) <= last_bucket_) {
         queue_.push(key, window);
         ++windows_;
@@ -279,6 +282,9 @@ void ExactWindows::start_in_triangle(const Seed& seed) {
     }
     const double height = seed.distance * std::sin(seed.angle);
     const double length = graph_.side_length[seed.side];
+    if (seed.of_line) {
+        return;
+    }
     if (height > 0 && length > 0) {
         const PlanePoint apex = table_.apex[seed.side];
         const PlanePoint source{length - seed.distance * std::cos(seed.angle), height};
@@ -286,7 +292,47 @@ void ExactWindows::start_in_triangle(const Seed& seed) {
     }
 }
 
-bool ExactWindows::run(std::span<const Seed> seeds, double radius) {
+/// A line sends parallel rays to both sides: those of a point so far behind that they bend by some 1e-8 of
+/// the line's length, which is also what the far point loses to rounding.
+void ExactWindows::start_line(const Segment& line) {
+    const double dx = line.to.x - line.from.x, dy = line.to.y - line.from.y;
+    const double length = std::hypot(dx, dy);
+    const double behind = far_behind * length;
+    const std::array<PlanePoint, 3> corners = laid_out(graph_, line.base);
+    const std::array<uint32_t, 3> sides = {line.base, TriangleGraph::next(line.base),
+                                           TriangleGraph::previous(line.base)};
+    for (size_t k = 0; k < 3; ++k) {
+        // Frame of the side turned around: from its end to its start, the triangle below at y > 0.
+        const PlanePoint& origin = corners[(k + 1) % 3];
+        const double side = graph_.side_length[sides[k]];
+        if (!(side > 0)) {
+            continue;
+        }
+        const PlanePoint u{(corners[k].x - origin.x) / side, (corners[k].y - origin.y) / side};
+        const auto in_frame = [&](double x, double y) {
+            return PlanePoint{x * u.x + y * u.y, x * u.y - y * u.x};
+        };
+        const PlanePoint from = in_frame(line.from.x - origin.x, line.from.y - origin.y);
+        const PlanePoint to = in_frame(line.to.x - origin.x, line.to.y - origin.y);
+        for (const double sign : {1.0, -1.0}) {
+            const PlanePoint n = in_frame(-sign * dy / length, sign * dx / length);
+            // Rays that leave through this side go up in its frame's -y.
+            if (!(n.y < -1e-9)) {
+                continue;
+            }
+            const double at_from = from.x - from.y * n.x / n.y, at_to = to.x - to.y * n.x / n.y;
+            const double begin = std::max(0.0, std::min(at_from, at_to));
+            const double end = std::min(side, std::max(at_from, at_to));
+            const PlanePoint source{0.5 * (from.x + to.x) - behind * n.x,
+                                    0.5 * (from.y + to.y) - behind * n.y};
+            if (end - begin > least_width * side) {
+                enter({sides[k], begin, end, source, -behind, source, Child::Rim::none});
+            }
+        }
+    }
+}
+
+bool ExactWindows::run(const SourceParts& sources, double radius) {
     if (++run_ == 0) {
         std::fill(vertices_.begin(), vertices_.end(), Arrival{});
         std::fill(best_.begin(), best_.end(), Best{});
@@ -296,19 +342,22 @@ bool ExactWindows::run(std::span<const Seed> seeds, double radius) {
     queue_.clear();
     windows_ = 0;
     last_bucket_ = queue_.bucket_of(radius);
-    for (const Seed& seed : seeds) {
+    for (const Seed& seed : sources.seeds) {
         if (seed.side == no_index && known(seed.vertex) > 0) {
             arrive(seed.vertex, 0, no_index, 0);
         }
     }
-    const std::vector<uint32_t> sources = reached_;
-    for (const uint32_t source : sources) {
+    const std::vector<uint32_t> at_vertices = reached_;
+    for (const uint32_t source : at_vertices) {
         bend_at(source);
     }
-    for (const Seed& seed : seeds) {
+    for (const Seed& seed : sources.seeds) {
         if (seed.side != no_index) {
             start_in_triangle(seed);
         }
+    }
+    for (const Segment& line : sources.segments) {
+        start_line(line);
     }
     while (!queue_.empty()) {
         const Window window = queue_.pop();

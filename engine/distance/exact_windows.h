@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/distance/bucket_queue.h"
-#include "engine/distance/source_seeds.h"
+#include "engine/distance/segment_seeds.h"
 #include "engine/distance/window_table.h"
 
 namespace anvil {
@@ -19,7 +19,7 @@ class ExactWindows {
     /// Propagates from the seeds until every vertex within `radius` (units of the graph) is final; those
     /// values are bit for bit the ones of an unbounded run.
     /// @return false if the windows became more than `most_windows` allows; the values are then of no use.
-    bool run(std::span<const Seed> seeds, double radius);
+    bool run(const SourceParts& sources, double radius);
 
     /// Vertices that have a value, in order of arrival; values beyond the radius need not be final.
     std::span<const uint32_t> reached() const { return reached_; }
@@ -53,6 +53,7 @@ class ExactWindows {
     bool is_dominated(uint32_t from, uint32_t to, double length, const Window& window) const;
     void arrive(uint32_t vertex, double distance, uint32_t side, double angle);
     void start_in_triangle(const Seed& seed);
+    void start_line(const Segment& segment);
     void push(const Window& window, double key);
     void enter(const Child& child);
     void cross(const Window& window);

@@ -2,7 +2,7 @@
 #include "engine/distance/distance.h"
 #include "engine/distance/exact_windows.h"
 #include "engine/distance/front_seeds.h"
-#include "engine/distance/source_seeds.h"
+#include "engine/distance/segment_seeds.h"
 #include "engine/distance/workspace_pool.h"
 
 namespace anvil {
@@ -51,9 +51,25 @@ DistanceField collect(const Workspace& workspace, const TriangleGraph& graph, do
 struct GeodesicSolver::State {
     explicit State(TriangleGraph prepared) : graph(std::move(prepared)), fans(flipped_table(graph)) {}
 
-    DistanceField approximate(std::span<const Seed> seeds, double bound) {
+    DistanceField solve(const SourceParts& sources, double radius, DistanceMethod method) {
+        if (!(radius >= 0)) {
+            throw InputError("distances: the radius is " + std::to_string(radius) + "; give a number >= 0");
+        }
+        const double bound = radius / graph.unit;
+        DistanceField field;
+        if (method == DistanceMethod::exact && exact(sources, bound, field)) {
+            return field;
+        }
+        field = approximate(sources, bound);
+        if (method == DistanceMethod::automatic && deserves_exact(field)) {
+            exact(sources, bound, field);
+        }
+        return field;
+    }
+
+    DistanceField approximate(const SourceParts& sources, double bound) {
         std::unique_ptr<VertexFronts> fronts = front_pool.borrow([&] { return VertexFronts(fans); });
-        fronts->run(front_seeds(graph, fans, seeds), bound);
+        fronts->run(front_seeds(graph, fans, sources.seeds), bound);
         DistanceField field = collect(*fronts, graph, bound);
         field.method = DistanceMethod::approximate;
         front_pool.give_back(std::move(fronts));
@@ -61,11 +77,11 @@ struct GeodesicSolver::State {
     }
 
     /// @return false if the surface has too many windows.
-    bool exact(std::span<const Seed> seeds, double bound, DistanceField& field) {
+    bool exact(const SourceParts& sources, double bound, DistanceField& field) {
         std::call_once(windows_prepared, [&] { window_table = make_window_table(graph); });
         std::unique_ptr<ExactWindows> windows =
             window_pool.borrow([&] { return ExactWindows(graph, window_table); });
-        const bool done = windows->run(seeds, bound);
+        const bool done = windows->run(sources, bound);
         if (done) {
             field = collect(*windows, graph, bound);
             field.method = DistanceMethod::exact;
@@ -98,20 +114,13 @@ GeodesicSolver& GeodesicSolver::operator=(GeodesicSolver&&) noexcept = default;
 
 DistanceField GeodesicSolver::solve(std::span<const SurfacePoint> sources, double radius,
                                     DistanceMethod method) const {
-    if (!(radius >= 0)) {
-        throw InputError("distances: the radius is " + std::to_string(radius) + "; give a number >= 0");
-    }
-    const std::vector<Seed> seeds = seed_sources(state_->graph, sources);
-    const double bound = radius / state_->graph.unit;
-    DistanceField field;
-    if (method == DistanceMethod::exact && state_->exact(seeds, bound, field)) {
-        return field;
-    }
-    field = state_->approximate(seeds, bound);
-    if (method == DistanceMethod::automatic && state_->deserves_exact(field)) {
-        state_->exact(seeds, bound, field);
-    }
-    return field;
+    return state_->solve(source_parts(state_->graph, sources, {}, {}), radius, method);
+}
+
+DistanceField GeodesicSolver::solve(const DistanceSources& sources, double radius,
+                                    DistanceMethod method) const {
+    return state_->solve(source_parts(state_->graph, sources.points, sources.polylines, sources.triangles),
+                         radius, method);
 }
 
 std::vector<double> DistanceField::dense(size_t vertex_count) const {

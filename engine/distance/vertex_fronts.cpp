@@ -315,7 +315,7 @@ void VertexFronts::run(std::span<const FrontSeed> seeds, double radius) {
     for (const FrontSeed& seed : seeds) {
         const Front& front = fronts_[seed.vertex];
         if (!is_reached(front) || seed.distance < front.distance) {
-            accept(seed.vertex, seed.distance, 0, seed.direction, seed.label, ~seed.vertex);
+            accept(seed.vertex, seed.distance, seed.offset, seed.direction, seed.label, ~seed.vertex);
         }
     }
     while (!queue_.empty()) {

@@ -12,6 +12,7 @@ struct FrontSeed {
     uint32_t label = 0;
     float distance = 0;
     float direction = 0; ///< to the source, at the vertex
+    float offset = 0;    ///< of the centre; below 0 for the flat front of a line
 };
 
 /// A workspace over one table, kept between runs; a run touches only what it reaches.
