@@ -1,9 +1,8 @@
-#include "engine/distance/distance.h"
 #include "app/cli/backend_choice.h"
 #include "app/cli/command.h"
 #include "app/cli/distance_picture.h"
 #include "engine/core/error.h"
-#include "engine/forge/surface_resolver.h"
+#include "engine/forge/surface_state.h"
 #include "engine/mesh/mesh_reader.h"
 
 #include <charconv>
@@ -43,22 +42,14 @@ DistanceMethod method_named(const std::string& name) {
 }
 
 std::vector<double> find_distances(const Mesh& mesh, const Options& options) {
-    SurfaceResolver resolver(mesh, mesh.positions);
+    SurfaceState surface(mesh, mesh.positions);
     std::vector<SurfacePoint> sources;
     for (const std::string& text : options.from) {
-        sources.push_back(resolver.resolve(parse_address(text), "--from " + text));
+        sources.push_back(surface.resolve(parse_address(text), "--from " + text));
     }
-    const double radius = options.radius.value_or(infinity);
-    if (options.metric == "euclidean") {
-        std::vector<Vec3> points;
-        points.reserve(sources.size());
-        for (const SurfacePoint& source : sources) {
-            points.push_back(resolver.position_of(source));
-        }
-        return euclidean_distances(mesh.positions, points, radius).dense(mesh.vertex_count());
-    }
-    const GeodesicSolver solver(mesh, mesh.positions);
-    return solver.solve(sources, radius, method_named(options.method)).dense(mesh.vertex_count());
+    const Metric metric = options.metric == "euclidean" ? Metric::euclidean : Metric::geodesic;
+    return surface.distances(sources, metric, method_named(options.method), options.radius.value_or(infinity))
+        .dense(mesh.vertex_count());
 }
 
 /// One per line, 17 significant digits: every double reads back as itself.

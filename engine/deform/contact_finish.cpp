@@ -10,17 +10,33 @@ namespace anvil {
 
 namespace {
 
-/// Depth that is reported as penetration: 1e-6 of the smallest occluder's size.
-double reported_depth(const OccluderSet& set) {
-    double depth = infinity;
+constexpr double reported_depth = 1e-6;   // of the occluder's size
+constexpr double contact_distance = 1e-3; // of the occluder's size
+
+/// What counts as touching, for the nearest occluder's exact distance: the least of all.
+double touching(const OccluderSet& set) {
+    double distance = infinity;
     for (size_t k = 0; k < set.occluders.size(); ++k) {
-        depth = std::min(depth, 1e3 * touching_distance(set, k));
+        distance = std::min(distance, touching_distance(set, k));
     }
-    return depth;
+    return distance;
 }
 
-double least_touching_distance(const OccluderSet& set) {
-    return 1e-3 * reported_depth(set);
+struct Nearest {
+    double distance; ///< exact
+    double size;     ///< of the occluder
+    double settle;   ///< how far off its surface contact sets vertices down
+};
+
+Nearest nearest_occluder(const OccluderSet& set, const Vec3& p) {
+    Nearest nearest{infinity, 0, 0};
+    for (size_t k = 0; k < set.occluders.size(); ++k) {
+        const double distance = exact_distance(set, k, p).distance;
+        if (distance < nearest.distance) {
+            nearest = {distance, set.sizes[k], set.occluders[k].settle};
+        }
+    }
+    return nearest;
 }
 
 /// The point of the segment from `end` back to `start` nearest to the end that is outside, to 2^-40 of it.
@@ -54,21 +70,28 @@ Vec3 outside(const OccluderSet& set, const Vec3& start, const Vec3& end, double 
     return retreat(set, start, end);
 }
 
-/// Deepest of 15 points of a triangle, or 0 where a corner certifies that all of it is outside.
-double dip(const OccluderSet& set, const Vec3& a, const Vec3& b, const Vec3& c) {
+struct Dip {
+    double depth = 0;
+    bool reported = false; ///< deeper than rounding
+};
+
+/// Deepest of 15 points of a triangle, none where a corner certifies that all of it is outside.
+Dip dip(const OccluderSet& set, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 corner[3] = {a, b, c};
     for (int i = 0; i < 3; ++i) {
         const double reach = std::max(glm::length(corner[(i + 1) % 3] - corner[i]),
                                       glm::length(corner[(i + 2) % 3] - corner[i]));
         if (exact_distance(set, corner[i]).distance >= reach) {
-            return 0;
+            return {};
         }
     }
-    double deepest = 0;
+    Dip deepest;
     for (int u = 0; u <= 4; ++u) {
         for (int v = 0; u + v <= 4; ++v) {
             const Vec3 p = c + 0.25 * u * (a - c) + 0.25 * v * (b - c);
-            deepest = std::max(deepest, -exact_distance(set, p).distance);
+            const Nearest nearest = nearest_occluder(set, p);
+            deepest.depth = std::max(deepest.depth, -nearest.distance);
+            deepest.reported = deepest.reported || -nearest.distance > reported_depth * nearest.size;
         }
     }
     return deepest;
@@ -78,7 +101,7 @@ double dip(const OccluderSet& set, const Vec3& a, const Vec3& b, const Vec3& c) 
 
 size_t finish_contact(const OccluderSet& set, std::span<const Vec3> starts, const std::vector<bool>& inside,
                       std::span<Vec3> ends) {
-    const double rounding = least_touching_distance(set);
+    const double rounding = touching(set);
     std::atomic<size_t> moved{0};
     parallel_for(ends.size(), 512, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
@@ -93,45 +116,41 @@ size_t finish_contact(const OccluderSet& set, std::span<const Vec3> starts, cons
 
 void measure_vertices(const OccluderSet& set, std::span<const Vec3> ends, const std::vector<bool>& inside,
                       ContactReport& report) {
-    const double limit = reported_depth(set);
-    double near = 1e3 * limit;
-    for (const auto& occluder : set.occluders) {
-        near = std::max(near, 1e3 * limit + occluder.settle);
-    }
     std::mutex mutex;
     parallel_for(ends.size(), 512, [&](size_t begin, size_t end) {
-        size_t count = 0;
-        size_t touching = 0;
+        size_t penetrating = 0;
+        size_t contacts = 0;
         double deepest = 0;
         for (size_t i = begin; i < end; ++i) {
-            const double distance = exact_distance(set, ends[i]).distance;
-            const double depth = inside[i] ? 0 : -distance;
+            const Nearest nearest = nearest_occluder(set, ends[i]);
+            const double depth = inside[i] ? 0 : -nearest.distance;
             deepest = std::max(deepest, depth);
-            count += depth > limit ? 1 : 0;
-            touching += std::abs(distance) <= near ? 1 : 0;
+            penetrating += depth > reported_depth * nearest.size ? 1 : 0;
+            contacts +=
+                std::abs(nearest.distance) <= nearest.settle + contact_distance * nearest.size ? 1 : 0;
         }
         const std::lock_guard lock(mutex);
-        report.penetrating_vertices += count;
-        report.contact_vertices += touching;
+        report.penetrating_vertices += penetrating;
+        report.contact_vertices += contacts;
         report.max_penetration = std::max(report.max_penetration, deepest);
     });
 }
 
-void measure_triangles(const OccluderSet& set, std::span<const Vec3> positions,
+void measure_triangles(const OccluderSet& set, std::span<const Vec3> positions, const Vec3& origin,
                        std::span<const Triangle> triangles, ContactReport& report) {
-    const double limit = reported_depth(set);
     std::mutex mutex;
     parallel_for(triangles.size(), 256, [&](size_t begin, size_t end) {
-        size_t count = 0;
+        size_t penetrating = 0;
         double deepest = 0;
         for (size_t i = begin; i < end; ++i) {
             const Triangle& t = triangles[i];
-            const double depth = dip(set, positions[t[0]], positions[t[1]], positions[t[2]]);
-            deepest = std::max(deepest, depth);
-            count += depth > limit ? 1 : 0;
+            const Dip found =
+                dip(set, positions[t[0]] - origin, positions[t[1]] - origin, positions[t[2]] - origin);
+            deepest = std::max(deepest, found.depth);
+            penetrating += found.reported ? 1 : 0;
         }
         const std::lock_guard lock(mutex);
-        report.penetrating_triangles += count;
+        report.penetrating_triangles += penetrating;
         report.deepest_dip = std::max(report.deepest_dip, deepest);
     });
 }

@@ -19,8 +19,9 @@ struct ContactReport {
     size_t penetrating_triangles = 0;
     double deepest_dip = 0; ///< deepest sampled point of a penetrating triangle
     size_t finished_on_cpu = 0;
-    size_t contact_vertices =
-        0; ///< of the region, within 1e-3 of the occluder's size of where fields set down
+    /// Of the region, that end within 1e-3 of the occluder's size of where contact sets vertices down (its
+    /// surface, or as far off as its sampled field may err).
+    size_t contact_vertices = 0;
 };
 
 /// Moves each point of `ends` that is inside an occluder, although its `start` was outside, to the closest
@@ -37,7 +38,8 @@ void measure_vertices(const OccluderSet& set, std::span<const Vec3> ends, const 
 
 /// Fills penetrating_triangles and deepest_dip: a triangle is certified outside if a corner is farther out
 /// than it is from the triangle's other points; all others are sampled (edges and inside, 15 points).
-void measure_triangles(const OccluderSet& set, std::span<const Vec3> positions,
+/// `positions` in world space, `origin`: the local origin; only those that `triangles` name are read.
+void measure_triangles(const OccluderSet& set, std::span<const Vec3> positions, const Vec3& origin,
                        std::span<const Triangle> triangles, ContactReport& report);
 
 } // namespace anvil

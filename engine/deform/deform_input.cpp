@@ -8,10 +8,12 @@ namespace anvil {
 
 namespace {
 
-/// Sampled field first; the exact distance where contact acts, where the sign may be wrong.
+/// Sampled field first; the exact distance where contact acts, where the sign may be wrong. The occluder of
+/// least clearance counts as in the kernel, unless the point is inside another one.
 double start_distance(const OccluderSet& set, kernel::f64::OccluderKernel& kernel, const Vec3& p) {
     double best_clearance = infinity;
     double best = infinity;
+    double deepest = 0;
     for (uint32_t k = 0; k < set.occluders.size(); ++k) {
         const auto& occluder = set.occluders[k];
         double distance = kernel.occluder_probe(k, p).distance;
@@ -21,12 +23,13 @@ double start_distance(const OccluderSet& set, kernel::f64::OccluderKernel& kerne
         if (distance < 0 && distance >= -touching_distance(set, k)) {
             distance = 0;
         }
+        deepest = std::min(deepest, distance);
         if (distance - occluder.margin < best_clearance) {
             best_clearance = distance - occluder.margin;
             best = distance;
         }
     }
-    return best;
+    return deepest < 0 ? deepest : best;
 }
 
 } // namespace

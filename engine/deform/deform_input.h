@@ -19,7 +19,8 @@ struct DeformInput {
     std::vector<kernel::f64::CurveRange> shapes;     ///< k runs of `segments`
     OccluderSet occluders;
     /// n: signed distance of the nearest occluder at each point (exact sign, exact value within the band
-    /// where contact acts); empty without occluders. start_distances() computes it.
+    /// where contact acts), negative if it is inside any; empty without occluders. See
+    /// find_start_distances().
     std::vector<double> start_distances;
 };
 

@@ -14,7 +14,7 @@ struct HandleField {
 };
 
 std::vector<SurfacePoint> sources_of(const Edit& edit, size_t handle, const SurfacePoint& handle_point,
-                                     const std::string& place, SurfaceResolver& resolver) {
+                                     const std::string& place, SurfaceState& surface) {
     for (size_t a = 0; a < edit.anchors.size(); ++a) {
         if (edit.anchors[a].handle != handle) {
             continue;
@@ -23,24 +23,11 @@ std::vector<SurfacePoint> sources_of(const Edit& edit, size_t handle, const Surf
         for (size_t i = 0; i < edit.anchors[a].at.size(); ++i) {
             const std::string where =
                 place + ".anchors[" + std::to_string(a) + "].at[" + std::to_string(i) + "]";
-            sources.push_back(resolver.resolve(edit.anchors[a].at[i], where));
+            sources.push_back(surface.resolve(edit.anchors[a].at[i], where));
         }
         return sources;
     }
     return {handle_point};
-}
-
-DistanceField distances_from(const std::vector<SurfacePoint>& sources, Metric metric, DistanceMethod method,
-                             double radius, std::span<const Vec3> positions, const SurfaceResolver& resolver,
-                             const GeodesicSolver& solver) {
-    if (metric == Metric::geodesic) {
-        return solver.solve(sources, radius, method);
-    }
-    std::vector<Vec3> points;
-    for (const SurfacePoint& source : sources) {
-        points.push_back(resolver.position_of(source));
-    }
-    return euclidean_distances(positions, points, radius);
 }
 
 /// Half of the largest finite distance, the default radius of influence.
@@ -57,32 +44,39 @@ double half_reach(const DistanceField& field, const std::string& place) {
     return 0.5 * largest;
 }
 
+void sort_unique(std::vector<uint32_t>& vertices) {
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+}
+
 /// Every vertex within some handle's radius, ascending, without the pinned ones.
 std::vector<uint32_t> region_vertices(const std::vector<HandleField>& fields,
-                                      const std::vector<bool>& pinned) {
+                                      const std::vector<uint32_t>& pinned) {
     std::vector<uint32_t> vertices;
     for (const HandleField& field : fields) {
         for (size_t i = 0; i < field.distances.vertices.size(); ++i) {
-            if (field.distances.distances[i] <= field.radius && !pinned[field.distances.vertices[i]]) {
-                vertices.push_back(field.distances.vertices[i]);
+            const uint32_t v = field.distances.vertices[i];
+            if (field.distances.distances[i] <= field.radius &&
+                !std::binary_search(pinned.begin(), pinned.end(), v)) {
+                vertices.push_back(v);
             }
         }
     }
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    sort_unique(vertices);
     return vertices;
 }
 
-std::vector<bool> pinned_vertices(const Mesh& mesh, const Edit& edit, const std::string& place,
-                                  SurfaceResolver& resolver) {
-    std::vector<bool> pinned(mesh.vertex_count(), false);
+/// Ascending, each once.
+std::vector<uint32_t> pinned_vertices(const Edit& edit, const std::string& place, SurfaceState& surface) {
+    std::vector<uint32_t> pinned;
     for (size_t i = 0; i < edit.pinned.size(); ++i) {
         const SurfacePoint point =
-            resolver.resolve(edit.pinned[i], place + ".pinned[" + std::to_string(i) + "]");
-        for (const VertexWeight& w : resolver.weights_of(point)) {
-            pinned[w.vertex] = true;
+            surface.resolve(edit.pinned[i], place + ".pinned[" + std::to_string(i) + "]");
+        for (const VertexWeight& w : surface.weights_of(point)) {
+            pinned.push_back(w.vertex);
         }
     }
+    sort_unique(pinned);
     return pinned;
 }
 
@@ -121,30 +115,27 @@ double EditRegion::weight(size_t j, uint32_t v) const {
     return at < vertices.size() ? shapes[j](fields[j * vertices.size() + at]) : 0;
 }
 
-EditRegion find_region(const Mesh& mesh, std::span<const Vec3> positions, const Edit& edit,
-                       const std::string& place, SurfaceResolver& resolver, const GeodesicSolver& solver) {
+EditRegion find_region(const Edit& edit, const std::string& place, SurfaceState& surface) {
     EditRegion region;
     std::vector<HandleField> fields;
     for (size_t j = 0; j < edit.handles.size(); ++j) {
         const Handle& handle = edit.handles[j];
         const std::string where = place + ".handles[" + std::to_string(j) + "]";
-        const SurfacePoint point = resolver.resolve(handle.at, where + ".at");
-        region.handle_positions.push_back(resolver.position_of(point));
-        region.handle_weights.push_back(resolver.weights_of(point));
+        const SurfacePoint point = surface.resolve(handle.at, where + ".at");
+        region.handle_positions.push_back(surface.position_of(point));
+        region.handle_weights.push_back(surface.weights_of(point));
         region.shapes.push_back(make_shape_function(handle.shape.value_or(edit.shape)));
 
         const Metric metric = handle.metric.value_or(edit.metric);
         const std::optional<double> radius = handle.radius ? handle.radius : edit.radius;
-        const auto sources = sources_of(edit, j, point, place, resolver);
-        HandleField field{distances_from(sources, metric, edit.method, radius.value_or(infinity), positions,
-                                         resolver, solver),
-                          0};
+        const auto sources = sources_of(edit, j, point, place, surface);
+        HandleField field{surface.distances(sources, metric, edit.method, radius.value_or(infinity)), 0};
         field.radius = radius ? *radius : half_reach(field.distances, where);
         region.radii.push_back(field.radius);
-        region.method = method_name(metric, field.distances);
+        region.methods.push_back(method_name(metric, field.distances));
         fields.push_back(std::move(field));
     }
-    region.vertices = region_vertices(fields, pinned_vertices(mesh, edit, place, resolver));
+    region.vertices = region_vertices(fields, pinned_vertices(edit, place, surface));
     fill_fields(fields, region);
     return region;
 }

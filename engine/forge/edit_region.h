@@ -1,10 +1,9 @@
 // Where an edit acts: its handles on the mesh, their distances, and the vertices that it can move.
 #pragma once
 
-#include "engine/distance/distance.h"
 #include "engine/edit/recipe.h"
 #include "engine/edit/shape_function.h"
-#include "engine/forge/surface_resolver.h"
+#include "engine/forge/surface_state.h"
 
 #include <string>
 #include <vector>
@@ -18,15 +17,14 @@ struct EditRegion {
     std::vector<double> radii;                             ///< k, world units
     std::vector<ShapeFunction> shapes;                     ///< k
     std::vector<uint32_t> vertices;                        ///< ascending: t <= 1 for some handle, not pinned
-    std::vector<double> fields; ///< k x n: t = gamma / R, infinite where not reached
-    std::string method;         ///< how distances were found, for the report
+    std::vector<double> fields;       ///< k x n: t = gamma / R, infinite where not reached
+    std::vector<std::string> methods; ///< k, how the handle's distances were found, for the report
 
     /// Weight alpha_j of handle j at vertex `v`; 0 outside the region.
     double weight(size_t j, uint32_t v) const;
 };
 
 /// @throws InputError with `place` ("edits[2]") in front: bad addresses, a radius that cannot be defaulted.
-EditRegion find_region(const Mesh& mesh, std::span<const Vec3> positions, const Edit& edit,
-                       const std::string& place, SurfaceResolver& resolver, const GeodesicSolver& solver);
+EditRegion find_region(const Edit& edit, const std::string& place, SurfaceState& surface);
 
 } // namespace anvil

@@ -1,14 +1,15 @@
 #include "engine/forge/forge.h"
 
 #include "engine/core/error.h"
-#include "engine/distance/distance.h"
 #include "engine/forge/edit_motion.h"
 #include "engine/forge/edit_region.h"
+#include "engine/forge/surface_state.h"
 #include "engine/forge/volume.h"
 
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <optional>
 
 namespace anvil {
 
@@ -45,10 +46,17 @@ class Forger {
         result_.report.driver = backend_.driver_name();
         result_.report.vertices = mesh_.vertex_count();
         result_.report.faces = mesh_.polygon_count();
-        build_models();
-        for (size_t i = 0; i < recipe_.edits.size(); ++i) {
-            progress_.report("forge", static_cast<double>(i) / static_cast<double>(recipe_.edits.size()));
-            apply(recipe_.edits[i], "edits[" + std::to_string(i) + "]");
+        if (is_closed(mesh_)) {
+            volume_ = enclosed_volume(mesh_, result_.positions);
+        }
+        try {
+            build_models();
+            for (size_t i = 0; i < recipe_.edits.size(); ++i) {
+                progress_.report("forge", static_cast<double>(i) / static_cast<double>(recipe_.edits.size()));
+                apply(recipe_.edits[i], "edits[" + std::to_string(i) + "]");
+            }
+        } catch (const InputError& error) {
+            throw InputError(recipe_.file + ": " + error.what());
         }
         progress_.report("forge", 1);
         result_.report.warnings = log_.warnings;
@@ -72,11 +80,15 @@ class Forger {
         }
     }
 
-    OccluderSet occluders(const Edit& edit, double radius) const {
+    OccluderSet occluders(const Edit& edit, double radius, const std::string& place) const {
         OccluderSet set;
-        for (const OccluderUse& use : occluders_of(recipe_, edit)) {
-            add_occluder(set, models_.at(use.name), use.name, *use.transform, *use.influence,
-                         {origin_, diagonal_, radius});
+        try {
+            for (const OccluderUse& use : occluders_of(recipe_, edit)) {
+                add_occluder(set, models_.at(use.name), use.name, *use.transform, *use.influence,
+                             {origin_, diagonal_, radius});
+            }
+        } catch (const InputError& error) {
+            throw InputError(place + ": " + error.what());
         }
         return set;
     }
@@ -87,31 +99,32 @@ class Forger {
         const EditRegion region = measure_region(edit, place);
         report.radii = region.radii;
         report.region = region.vertices.size();
-        report.distance_method = region.method;
+        report.distance_methods = region.methods;
 
-        DeformInput input = prepare_input(edit, region);
+        DeformInput input = prepare_input(edit, region, place);
         const EditMotion motion = solve(edit, region, input, place, report);
         const auto results = deform(input, motion.motion);
-        const std::vector<Vec3> before = result_.positions;
         move_vertices(region, input, results, report);
-        report_contact(region, input, report);
-        report.volume = volume_change(mesh_, before, result_.positions);
+        report_triangles(region, input, report);
+        report_volume(report);
         note_region(region, input);
         result_.report.edits.push_back(std::move(report));
     }
 
     EditRegion measure_region(const Edit& edit, const std::string& place) {
         const StageTimer timer(seconds().distance);
-        SurfaceResolver resolver(mesh_, result_.positions);
-        const GeodesicSolver solver(mesh_, result_.positions);
-        return find_region(mesh_, result_.positions, edit, place, resolver, solver);
+        if (!surface_) {
+            surface_.emplace(mesh_, result_.positions);
+        }
+        return find_region(edit, place, *surface_);
     }
 
-    DeformInput prepare_input(const Edit& edit, const EditRegion& region) {
+    DeformInput prepare_input(const Edit& edit, const EditRegion& region, const std::string& place) {
         const StageTimer timer(seconds().solve);
         DeformInput input;
         input.handle_count = region.shapes.size();
         input.fields = region.fields;
+        input.points.reserve(region.vertices.size());
         for (uint32_t v : region.vertices) {
             input.points.push_back(result_.positions[v] - origin_);
         }
@@ -122,7 +135,7 @@ class Forger {
                 input.segments.push_back({s.begin, s.c0, s.c1, s.c2, s.c3});
             }
         }
-        input.occluders = occluders(edit, *std::max_element(region.radii.begin(), region.radii.end()));
+        input.occluders = occluders(edit, *std::max_element(region.radii.begin(), region.radii.end()), place);
         find_start_distances(input);
         return input;
     }
@@ -186,6 +199,9 @@ class Forger {
             result_.moved[region.vertices[i]] = result_.moved[region.vertices[i]] || end != position;
             position = end;
         }
+        if (report.moved > 0) {
+            surface_.reset(); // it knows the positions before
+        }
         count_steps(results, report);
     }
 
@@ -211,7 +227,7 @@ class Forger {
         }
     }
 
-    void report_contact(const EditRegion& region, const DeformInput& input, EditReport& report) {
+    void report_triangles(const EditRegion& region, const DeformInput& input, EditReport& report) {
         if (input.occluders.empty()) {
             return;
         }
@@ -226,11 +242,18 @@ class Forger {
                 triangles.push_back(t);
             }
         }
-        std::vector<Vec3> local(result_.positions);
-        for (Vec3& p : local) {
-            p -= origin_;
+        measure_triangles(input.occluders, result_.positions, origin_, triangles, *report.contact);
+    }
+
+    void report_volume(EditReport& report) {
+        if (!volume_) {
+            return;
         }
-        measure_triangles(input.occluders, local, triangles, *report.contact);
+        const double before = *volume_;
+        if (report.moved > 0) {
+            volume_ = enclosed_volume(mesh_, result_.positions);
+        }
+        report.volume = VolumeChange{before, *volume_};
     }
 
     void note_region(const EditRegion& region, const DeformInput& input) {
@@ -253,6 +276,8 @@ class Forger {
     Vec3 origin_{0};
     double diagonal_ = 0;
     ForgeResult result_;
+    std::optional<SurfaceState> surface_; ///< of result_.positions; empty once they have changed
+    std::optional<double> volume_;        ///< of result_.positions, for closed meshes
 };
 
 } // namespace

@@ -36,15 +36,15 @@ struct VolumeChange {
 };
 
 struct EditReport {
-    std::string kind;            ///< "translate" or "rotate"
-    std::string distance_method; ///< "approximate", "exact" or "euclidean"
-    size_t region = 0;           ///< vertices that the edit can move
-    size_t moved = 0;            ///< vertices whose position changed
+    std::string kind;  ///< "translate" or "rotate"
+    size_t region = 0; ///< vertices that the edit can move
+    size_t moved = 0;  ///< vertices whose position changed
     int rank = 0;
     double condition = 0;
     double amplification = 0;
-    std::vector<double> target_errors; ///< per handle, world units, of the constraint system
-    std::vector<double> radii;         ///< per handle, world units
+    std::vector<double> target_errors;         ///< per handle, world units, of the constraint system
+    std::vector<double> radii;                 ///< per handle, world units
+    std::vector<std::string> distance_methods; ///< per handle: "approximate", "exact" or "euclidean"
     StepCounts steps;
     size_t samples = 0;
     std::optional<ContactReport> contact; ///< absent without occluders
@@ -62,6 +62,8 @@ struct ForgeReport {
 };
 
 /// JSON text of the report, 2 spaces of indentation, numbers that round trip; what is not finite is null.
+/// Every edit has every key: without occluders the counts of `occluder` are 0, without refinement those of
+/// `refine` (and its angles and reason are null); `volume` alone is null where there is none.
 std::string report_json(const ForgeReport& report);
 
 } // namespace anvil

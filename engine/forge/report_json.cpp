@@ -24,15 +24,15 @@ Json contact_json(const ContactReport& c) {
 Json handles_json(const EditReport& edit) {
     Json handles = Json::array();
     for (size_t j = 0; j < edit.target_errors.size(); ++j) {
-        handles.push_back(
-            {{"target_error", number(edit.target_errors[j])}, {"radius", number(edit.radii[j])}});
+        handles.push_back({{"target_error", number(edit.target_errors[j])},
+                           {"radius", number(edit.radii[j])},
+                           {"method", edit.distance_methods[j]}});
     }
     return handles;
 }
 
 Json edit_json(const EditReport& e) {
     Json json = {{"kind", e.kind},
-                 {"method", e.distance_method},
                  {"region", e.region},
                  {"moved", e.moved},
                  {"rank", e.rank},
@@ -45,7 +45,12 @@ Json edit_json(const EditReport& e) {
                    {"max", e.steps.max},
                    {"limit_reached", e.steps.limit_reached}}},
                  {"samples", e.samples}};
-    json["occluder"] = e.contact ? contact_json(*e.contact) : Json(nullptr);
+    json["refine"] = {{"added", 0},
+                      {"max_error", nullptr},
+                      {"stopped_by", nullptr},
+                      {"min_angle_before", nullptr},
+                      {"min_angle_after", nullptr}};
+    json["occluder"] = contact_json(e.contact.value_or(ContactReport{}));
     json["volume"] = e.volume ? Json{{"before", number(e.volume->before)}, {"after", number(e.volume->after)}}
                               : Json(nullptr);
     return json;

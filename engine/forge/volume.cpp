@@ -11,9 +11,11 @@ uint64_t scattered(uint64_t x) {
     return x ^ (x >> 31);
 }
 
-/// Every directed edge is met by its reverse: a sum of scattered edge words in which each pair cancels is
-/// zero (by chance otherwise once in 2^64), with no table over the edges.
-bool closed(const Mesh& mesh) {
+} // namespace
+
+bool is_closed(const Mesh& mesh) {
+    // A sum of scattered edge words in which every edge cancels against its reverse is zero, and by chance
+    // otherwise once in 2^64.
     uint64_t sum = 0;
     for (const Triangle& t : mesh.triangles) {
         for (int i = 0; i < 3; ++i) {
@@ -25,24 +27,14 @@ bool closed(const Mesh& mesh) {
     return sum == 0 && !mesh.triangles.empty();
 }
 
-double volume(const Mesh& mesh, std::span<const Vec3> positions) {
-    const Vec3 origin = positions.empty() ? Vec3(0) : positions[0];
+double enclosed_volume(const Mesh& mesh, std::span<const Vec3> positions) {
+    const Vec3 origin = positions.empty() ? Vec3(0) : positions[0]; // far from zero, sums would cancel
     double sum = 0;
     for (const Triangle& t : mesh.triangles) {
         sum += glm::dot(positions[t[0]] - origin,
                         glm::cross(positions[t[1]] - origin, positions[t[2]] - origin));
     }
     return sum / 6;
-}
-
-} // namespace
-
-std::optional<VolumeChange> volume_change(const Mesh& mesh, std::span<const Vec3> before,
-                                          std::span<const Vec3> after) {
-    if (!closed(mesh)) {
-        return std::nullopt;
-    }
-    return VolumeChange{volume(mesh, before), volume(mesh, after)};
 }
 
 } // namespace anvil

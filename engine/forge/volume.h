@@ -1,17 +1,17 @@
-// Enclosed volume before and after an edit.
+// The volume that a surface encloses.
 #pragma once
 
-#include "engine/forge/report.h"
 #include "engine/mesh/mesh.h"
 
-#include <optional>
 #include <span>
 
 namespace anvil {
 
-/// Signed volumes enclosed by the mesh with its vertices at `before` and at `after` (world units cubed), or
-/// nothing if the mesh is open: some edge has not exactly as many faces in one direction as in the other.
-std::optional<VolumeChange> volume_change(const Mesh& mesh, std::span<const Vec3> before,
-                                          std::span<const Vec3> after);
+/// Whether every triangle edge is met as often in one direction as in the other. O(triangles), no tables.
+bool is_closed(const Mesh& mesh);
+
+/// Signed volume (world units cubed) that a closed mesh encloses with its vertices at `positions`; negative
+/// if its faces look inwards.
+double enclosed_volume(const Mesh& mesh, std::span<const Vec3> positions);
 
 } // namespace anvil

@@ -117,7 +117,6 @@ k::Occluder& add_occluder(SelftestCase& test, const std::vector<k::ShapeNode>& n
     set.nodes.insert(set.nodes.end(), nodes.begin(), nodes.end());
     set.occluders.push_back(occluder);
     set.exact.push_back(formula_distance(nodes));
-    set.names.push_back("occluder");
     set.sizes.push_back(1);
     return set.occluders.back();
 }

@@ -48,11 +48,17 @@ Box placed_box(const k::ShapeNode& node) {
     return {node.origin - node.scale * half, node.origin + node.scale * half};
 }
 
+Box overlap(const Box& a, const Box& b) {
+    const Box both{glm::max(a.low, b.low), glm::min(a.high, b.high)};
+    const bool any = both.low.x <= both.high.x && both.low.y <= both.high.y && both.low.z <= both.high.z;
+    return any ? both : Box{};
+}
+
 Box combined_box(uint32_t operation, const Box& a, const Box& b) {
     if (operation == k::SHAPE_UNION) {
         return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
     }
-    return operation == k::SHAPE_INTERSECTION ? Box{glm::max(a.low, b.low), glm::min(a.high, b.high)} : a;
+    return operation == k::SHAPE_INTERSECTION ? overlap(a, b) : a;
 }
 
 class FormulaDistance final : public ExactDistance {

@@ -34,8 +34,8 @@ bool bounded(const Box& box) {
 }
 
 /// Step width h and settle distance e of the model, in its own units times its scale.
-void set_contact(k::Occluder& occluder, const OccluderModel& model, double size, double mesh_diagonal) {
-    double h = (std::isfinite(size) ? size : mesh_diagonal) / steps_across;
+void set_contact(k::Occluder& occluder, const OccluderModel& model, double size) {
+    double h = size / steps_across;
     occluder.settle = 0;
     if (!model.volumes.empty()) {
         h = model.volumes.front()->voxel * occluder.scale;
@@ -93,6 +93,9 @@ OccluderModel build_model(const OccluderShape& shape, const Field& field, Progre
     }
     model.exact = solid_distance(shape, source);
     model.bounds = model.exact->bounds();
+    if (model.bounds.empty()) {
+        throw InputError("the solid is empty: its parts leave nothing over; move them so that something remains");
+    }
     if (field.kind == FieldKind::dense) {
         if (std::holds_alternative<CsgShape>(shape.solid)) {
             model.exact = redistanced(model.exact, std::max(least_cells, static_cast<int>(field.resolution)));
@@ -120,10 +123,10 @@ void add_occluder(OccluderSet& set, const OccluderModel& model, const std::strin
     occluder.scale = place.scale;
     occluder.first_node = static_cast<uint32_t>(set.nodes.size());
     occluder.node_count = static_cast<uint32_t>(model.nodes.size());
-    const double size = bounded(model.bounds) ? model.bounds.diagonal() * place.scale : infinity;
-    set_contact(occluder, model, size, scale.diagonal);
-    const double extent = std::isfinite(size) ? 0.5 * size : scale.radius;
-    set_influence(set, occluder, influence, default_sigma * extent);
+    const double size = bounded(model.bounds) ? model.bounds.diagonal() * place.scale : scale.diagonal;
+    set_contact(occluder, model, size);
+    set_influence(set, occluder, influence,
+                  default_sigma * (bounded(model.bounds) ? 0.5 * size : scale.radius));
 
     for (k::ShapeNode node : model.nodes) {
         node.volume += static_cast<uint32_t>(set.volumes.size());
@@ -133,11 +136,10 @@ void add_occluder(OccluderSet& set, const OccluderModel& model, const std::strin
     set.occluders.push_back(occluder);
     set.exact.push_back(model.exact);
     set.sizes.push_back(size);
-    set.names.push_back(name);
 }
 
 double touching_distance(const OccluderSet& set, size_t occluder) {
-    return 1e-9 * steps_across * set.occluders[occluder].margin;
+    return 1e-9 * set.sizes[occluder];
 }
 
 SignedDistance exact_distance(const OccluderSet& set, size_t occluder, const Vec3& p) {

@@ -14,7 +14,7 @@
 
 namespace anvil {
 
-/// Flat arrays as the kernels read them, lengths relative to a local origin; `exact` and `names` have one
+/// Flat arrays as the kernels read them, lengths relative to a local origin; `exact` and `sizes` have one
 /// entry per occluder.
 struct OccluderSet {
     std::vector<kernel::f64::Occluder> occluders;
@@ -22,9 +22,8 @@ struct OccluderSet {
     std::vector<kernel::f64::ShapeSegment> segments; ///< influence curves
     std::vector<std::shared_ptr<const DistanceVolume>> volumes;
     std::vector<std::shared_ptr<const ExactDistance>> exact;
-    std::vector<double> sizes; ///< diagonal of each occluder's bounds in world units; infinite for a plane
-    std::vector<std::string> names;
-    bool paper = false; ///< all act by the paper's literal influence
+    std::vector<double> sizes; ///< diagonal of the occluder's bounds, of the mesh's if it is unbounded
+    bool paper = false;        ///< all act by the paper's literal influence
 
     bool empty() const { return occluders.empty(); }
 };
@@ -39,8 +38,8 @@ struct OccluderModel {
 };
 
 /// With an exact field, a shape without a formula has no nodes: good for exact distances alone.
-/// @throws InputError if a baked shape is unbounded, the Boolean tree is too deep for the kernels, or a mesh
-/// file cannot be read.
+/// @throws InputError if a baked shape is unbounded, a shape encloses nothing (told by its bounds, when baked
+/// by its surface too), the Boolean tree is too deep for the kernels, or a mesh file cannot be read.
 OccluderModel build_model(const OccluderShape& shape, const Field& field, Progress& progress,
                           const SolidSource& source = {});
 
@@ -56,7 +55,7 @@ struct OccluderScale {
 void add_occluder(OccluderSet& set, const OccluderModel& model, const std::string& name,
                   const Transform& pose, const Influence& influence, const OccluderScale& scale);
 
-/// How deep inside a point still counts as touching from outside: about 1e-9 of the occluder's size, what
+/// How deep inside a point still counts as touching from outside: 1e-9 of the occluder's size, more than
 /// rounding makes of a point put on its surface.
 double touching_distance(const OccluderSet& set, size_t occluder);
 

@@ -133,7 +133,7 @@ std::vector<k::ShapeNode> shape_nodes(const OccluderShape& shape) {
     if (stack_need(nodes) > k::MAX_SHAPE_STACK) {
         throw InputError("the shape nests " + std::to_string(stack_need(nodes)) +
                          " Boolean operands at once, the most is " + std::to_string(k::MAX_SHAPE_STACK) +
-                         ": put the deepest part first, or bake parts of it");
+                         ": list the deepest part first");
     }
     return nodes;
 }

@@ -5,7 +5,8 @@
 // `shapes`, `targets` and `start_distances`, `Occluder occluder_at(uint k)` (occluders[k] for a k that
 // differs between vertices), and for C++ the macro INOUT.
 
-// The occluder that matters at a point: the one with the least clearance = distance - margin.
+// The occluder that matters at a point: the one with the least clearance = distance - margin; for a vertex
+// still inside the one of least distance, which it has to leave first.
 struct Contact {
     uint occluder;
     real distance;
@@ -118,6 +119,7 @@ Contact contact_at(real3 p, INOUT(Vertex) vertex) {
     contact.occluder = 0u;
     contact.distance = 0.0;
     contact.clearance = 1e30;
+    real least = 1e30;
     contact.normal = real3(0.0);
     contact.step = 1e30;
     contact.skip = 1e30;
@@ -138,7 +140,9 @@ Contact contact_at(real3 p, INOUT(Vertex) vertex) {
         }
         contact.skip = min(contact.skip, skip);
         contact.step = min(contact.step, step);
-        if (clearance < contact.clearance) {
+        real level = vertex.inside ? probe.distance : clearance;
+        if (level < least) {
+            least = level;
             contact.occluder = k;
             contact.distance = probe.distance;
             contact.clearance = clearance;

@@ -1,4 +1,4 @@
-#include "engine/forge/surface_resolver.h"
+#include "engine/forge/surface_state.h"
 
 #include "engine/core/error.h"
 
@@ -12,7 +12,7 @@ std::string range(size_t count) {
 
 } // namespace
 
-SurfacePoint SurfaceResolver::at_vertex(uint32_t vertex, const std::string& place) {
+SurfacePoint SurfaceState::at_vertex(uint32_t vertex, const std::string& place) {
     if (vertex >= mesh_.vertex_count()) {
         throw InputError(place + ": vertex " + std::to_string(vertex) + " is out of range: the mesh has " +
                          std::to_string(mesh_.vertex_count()) + " vertices (" + range(mesh_.vertex_count()) +
@@ -21,7 +21,7 @@ SurfacePoint SurfaceResolver::at_vertex(uint32_t vertex, const std::string& plac
     return vertex_point(mesh_, vertex);
 }
 
-SurfacePoint SurfaceResolver::at_face(const FaceAddress& address, const std::string& place) const {
+SurfacePoint SurfaceState::at_face(const FaceAddress& address, const std::string& place) const {
     if (address.face >= mesh_.polygon_count()) {
         throw InputError(place + ": face " + std::to_string(address.face) +
                          " is out of range: the mesh has " + std::to_string(mesh_.polygon_count()) +
@@ -41,7 +41,7 @@ SurfacePoint SurfaceResolver::at_face(const FaceAddress& address, const std::str
     return snapped(point);
 }
 
-SurfacePoint SurfaceResolver::near(const Vec3& point, const std::string& place) {
+SurfacePoint SurfaceState::near(const Vec3& point, const std::string& place) {
     if (!tree_) {
         tree_ = std::make_unique<SearchTree>(positions_, mesh_.triangles);
     }
@@ -55,7 +55,7 @@ SurfacePoint SurfaceResolver::near(const Vec3& point, const std::string& place) 
     return snapped(result);
 }
 
-SurfacePoint SurfaceResolver::resolve(const SurfaceAddress& address, const std::string& place) {
+SurfacePoint SurfaceState::resolve(const SurfaceAddress& address, const std::string& place) {
     if (const auto* vertex = std::get_if<VertexAddress>(&address)) {
         return at_vertex(vertex->vertex, place);
     }
@@ -65,11 +65,27 @@ SurfacePoint SurfaceResolver::resolve(const SurfaceAddress& address, const std::
     return near(std::get<NearestAddress>(address).point, place);
 }
 
-Vec3 SurfaceResolver::position_of(const SurfacePoint& point) const {
+DistanceField SurfaceState::distances(std::span<const SurfacePoint> sources, Metric metric,
+                                      DistanceMethod method, double radius) {
+    if (metric == Metric::euclidean) {
+        std::vector<Vec3> points;
+        points.reserve(sources.size());
+        for (const SurfacePoint& source : sources) {
+            points.push_back(position_of(source));
+        }
+        return euclidean_distances(positions_, points, radius);
+    }
+    if (!solver_) {
+        solver_.emplace(mesh_, positions_);
+    }
+    return solver_->solve(sources, radius, method);
+}
+
+Vec3 SurfaceState::position_of(const SurfacePoint& point) const {
     return position(mesh_, positions_, point);
 }
 
-std::vector<VertexWeight> SurfaceResolver::weights_of(const SurfacePoint& point) const {
+std::vector<VertexWeight> SurfaceState::weights_of(const SurfacePoint& point) const {
     const VertexWeights weights = vertex_weights(mesh_, point);
     return {weights.begin(), weights.end()};
 }

@@ -1,27 +1,34 @@
-// From a recipe's addresses to points of the mesh as it stands.
+// A mesh as an edit finds it: points by their addresses, and distances from them.
 #pragma once
 
-#include "engine/edit/surface_address.h"
+#include "engine/distance/distance.h"
+#include "engine/edit/recipe.h"
 #include "engine/mesh/mesh.h"
 #include "engine/mesh/search_tree.h"
 #include "engine/mesh/surface_point.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace anvil {
 
-/// Finds surface points of one mesh at one set of positions, which must outlive it; the search tree is built
-/// when the first `nearest` asks for it.
-class SurfaceResolver {
+/// One mesh at one set of positions, both of which must outlive it unchanged. The search tree and the
+/// distance solver, O(mesh) each, are built when first asked for and then kept. Not for several threads.
+class SurfaceState {
   public:
-    SurfaceResolver(const Mesh& mesh, std::span<const Vec3> positions) : mesh_(mesh), positions_(positions) {}
+    SurfaceState(const Mesh& mesh, std::span<const Vec3> positions) : mesh_(mesh), positions_(positions) {}
 
     /// `place` begins the message, e.g. "edits[0].handles[1].at".
     /// @throws InputError if an index is out of range or the mesh has no surface to be near to.
     SurfacePoint resolve(const SurfaceAddress& address, const std::string& place);
+
+    /// Distance of every vertex from the nearest of `sources` (eq. 10), up to `radius`; `method` matters to
+    /// the geodesic metric alone.
+    DistanceField distances(std::span<const SurfacePoint> sources, Metric metric, DistanceMethod method,
+                            double radius);
 
     Vec3 position_of(const SurfacePoint& point) const;
     /// The vertices that carry the point, weights > 0.
@@ -35,6 +42,7 @@ class SurfaceResolver {
     const Mesh& mesh_;
     std::span<const Vec3> positions_;
     std::unique_ptr<SearchTree> tree_;
+    std::optional<GeodesicSolver> solver_;
 };
 
 } // namespace anvil
