@@ -38,7 +38,6 @@ layout(binding = 6, scalar) readonly buffer Nodes { ShapeNode nodes[]; };
 layout(binding = 7, scalar) readonly buffer Targets { vec3 targets[]; };
 layout(binding = 8, scalar) writeonly buffer Results { VertexResult results[]; };
 // Single bindings, not an array: its index would have to be the same in all invocations.
-// Single bindings, not an array: its index would have to be the same in all invocations.
 layout(binding = 9) uniform sampler3D volume_0;
 layout(binding = 10) uniform sampler3D volume_1;
 layout(binding = 11) uniform sampler3D volume_2;

@@ -94,7 +94,8 @@ OccluderModel build_model(const OccluderShape& shape, const Field& field, Progre
     model.exact = solid_distance(shape, source);
     model.bounds = model.exact->bounds();
     if (model.bounds.empty()) {
-        throw InputError("the solid is empty: its parts leave nothing over; move them so that something remains");
+        throw InputError(
+            "the solid is empty: its parts leave nothing over; move them so that something remains");
     }
     if (field.kind == FieldKind::dense) {
         if (std::holds_alternative<CsgShape>(shape.solid)) {

@@ -65,7 +65,8 @@ std::shared_ptr<const ExactDistance> redistanced(std::shared_ptr<const ExactDist
     }
     const Mesh surface = surface_of(*solid, cells);
     if (surface.triangles.empty()) {
-        throw InputError("the solid is empty: its parts leave nothing over; move them so that something remains");
+        throw InputError(
+            "the solid is empty: its parts leave nothing over; move them so that something remains");
     }
     return std::make_shared<Redistanced>(std::move(solid), surface);
 }

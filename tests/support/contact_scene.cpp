@@ -8,8 +8,8 @@ OccluderSet occluder_set(const Scene& scene) {
     OccluderSet set;
     Progress progress;
     for (const SceneOccluder& o : scene.occluders) {
-        add_occluder(set, build_model(o.shape, o.field, progress), "occluder", o.pose, o.influence,
-                     {Vec3(0), scene.mesh_diagonal, scene.radius});
+        add_occluder(set, o.model ? *o.model : build_model(o.shape, o.field, progress), "occluder", o.pose,
+                     o.influence, {Vec3(0), scene.mesh_diagonal, scene.radius});
     }
     for (auto& occluder : set.occluders) {
         occluder.margin *= scene.step_scale;

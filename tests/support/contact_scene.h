@@ -5,6 +5,7 @@
 #include "engine/deform/contact_finish.h"
 #include "engine/edit/recipe.h"
 
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct SceneOccluder {
     Field field{};
     Transform pose{};
     Influence influence{InfluenceKind::hard, 0.9, {}, {}, 0};
+    std::shared_ptr<const OccluderModel> model{}; ///< of shape and field where scenes share it, else empty
 };
 
 /// Each point has a displacement of its own: six handles along +-x, +-y, +-z whose weights are the
