@@ -62,7 +62,8 @@ Buffer start_distance_buffer(DeviceState& device, const DeformInput& input, size
 Buffer result_buffer(DeviceState& device, uint32_t count) {
     Buffer buffer(device, (uint64_t{count} + guard_count) * sizeof(VertexResult),
                   vk::BufferUsageFlagBits::eStorageBuffer, MemoryUse::device);
-    buffer.write(uint64_t{count} * sizeof(VertexResult), make_guards(guard_count * sizeof(VertexResult)));
+    // Guards in the place of the results too: what a kernel never wrote is told from what it did.
+    buffer.write(0, make_guards((uint64_t{count} + guard_count) * sizeof(VertexResult)));
     return buffer;
 }
 
@@ -197,6 +198,10 @@ std::vector<PointResult> GpuSession::download() {
             throw InternalError("the deformation kernel wrote behind the end of its results");
         }
         for (size_t i = 0; i < chunk.count; ++i) {
+            if (guards_intact(std::as_bytes(std::span(raw).subspan(i, 1)))) {
+                throw DeviceError("device \"" + pipeline_->device().info.name +
+                                  "\" left results unwritten; try another driver, or --device cpu");
+            }
             results.push_back({Vec3(raw[i].displacement), raw[i].steps, raw[i].samples, raw[i].flags});
         }
     }
