@@ -24,6 +24,7 @@ class BucketQueue {
         buckets_.resize(std::bit_ceil(wanted));
     }
 
+    /// Empties the queue and starts at key 0; nothing is held back.
     void clear() {
         // Emptied buckets are cleared as they are left, so only the one in hand can hold anything when none
         // live.
@@ -31,9 +32,28 @@ class BucketQueue {
         for (size_t i = 0; live_ > 0 && i < buckets_.size(); ++i) {
             buckets_[i].clear();
         }
+        held_back_.clear();
         live_ = 0;
+        last_ = 0;
+        rewind();
+    }
+
+    /// Back to key 0, for items that come before those already taken. The queue is empty.
+    void rewind() {
+        buckets_[current_ & (buckets_.size() - 1)].clear();
         current_ = 0;
         place_ = 0;
+    }
+
+    /// Items beyond the bucket of `key` are held back, whole buckets at a time, until a later call lets them
+    /// in.
+    void open_until(double key) {
+        last_ = bucket_of(key);
+        std::vector<Held> held;
+        held.swap(held_back_);
+        for (const Held& h : held) {
+            push(h.key, h.item);
+        }
     }
 
     size_t bucket_of(double key) const {
@@ -44,8 +64,13 @@ class BucketQueue {
     bool empty() const { return live_ == 0; }
 
     void push(double key, const Item& item) {
-        const size_t bucket = std::clamp(bucket_of(key), current_, current_ + buckets_.size() - 1);
-        buckets_[bucket & (buckets_.size() - 1)].push_back(item);
+        const size_t bucket = bucket_of(key);
+        if (bucket > last_) {
+            held_back_.push_back({key, item});
+            return;
+        }
+        const size_t place = std::clamp(bucket, current_, current_ + buckets_.size() - 1);
+        buckets_[place & (buckets_.size() - 1)].push_back(item);
         ++live_;
     }
 
@@ -64,9 +89,15 @@ class BucketQueue {
     }
 
   private:
+    struct Held {
+        double key;
+        Item item;
+    };
     static constexpr size_t most_buckets = 1 << 16;
     double width_ = 1;
     std::vector<std::vector<Item>> buckets_;
+    std::vector<Held> held_back_;
+    size_t last_ = 0;
     size_t current_ = 0;
     size_t place_ = 0;
     size_t live_ = 0;

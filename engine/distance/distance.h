@@ -31,6 +31,8 @@ struct DistanceSources {
     std::vector<uint32_t> triangles; ///< whole triangles (of Mesh::triangles)
 };
 
+class GeodesicMarch;
+
 /// Geodesic distances over a triangulated surface of any kind: edges with any number of faces, boundaries,
 /// several components, faces without area, isolated vertices. Prepared once per mesh and positions, O(mesh);
 /// a call costs what its region costs. Edge lengths alone matter, so place and scale of the mesh do not:
@@ -58,9 +60,39 @@ class GeodesicSolver {
     DistanceField solve(const DistanceSources& sources, double radius = infinity,
                         DistanceMethod method = DistanceMethod::automatic) const;
 
+    /// A march to be continued, without sources yet. `automatic` is approximate here.
+    GeodesicMarch march(DistanceMethod method) const;
+
   private:
+    friend class GeodesicMarch;
     struct State;
-    std::unique_ptr<State> state_;
+    std::shared_ptr<State> state_;
+};
+
+/// One field that is kept to go on with: when its radius grows, marching continues where it stopped; when a
+/// source is added, only what that improves is done again. Grown in steps it gives, bit for bit, what one
+/// call gives. It outlives its solver if need be; one thread at a time.
+class GeodesicMarch {
+  public:
+    ~GeodesicMarch();
+    GeodesicMarch(GeodesicMarch&&) noexcept;
+    GeodesicMarch& operator=(GeodesicMarch&&) noexcept;
+
+    /// @throws InputError as GeodesicSolver::solve does.
+    void add(const DistanceSources& sources);
+    /// A smaller radius than before changes nothing. @throws InputError if it is NaN or negative, or if the
+    /// exact method gives up.
+    void grow(double radius);
+
+    /// All vertices within the largest radius so far.
+    DistanceField field() const;
+
+  private:
+    friend class GeodesicSolver;
+    struct Work;
+    GeodesicMarch(std::shared_ptr<GeodesicSolver::State> state, DistanceMethod method);
+    void march_on();
+    std::unique_ptr<Work> work_;
 };
 
 /// Straight distance through space from each position to the nearest of `sources`, for positions not farther

@@ -48,10 +48,8 @@ ExactWindows::ExactWindows(const TriangleGraph& graph, const WindowTable& table)
 void ExactWindows::push(const Window& window, double key) {
     // The distance to a line is rounded in units of its far centre and may come out below 0.
     key = std::max(key, 0.0);
-    if (queue_.bucket_of(key) <= last_bucket_) {
-        queue_.push(key, window);
-        ++windows_;
-    }
+    queue_.push(key, window);
+    ++windows_;
 }
 
 void ExactWindows::arrive(uint32_t vertex, double distance, uint32_t side, double angle) {
@@ -332,7 +330,7 @@ void ExactWindows::start_line(const Segment& line) {
     }
 }
 
-bool ExactWindows::run(const SourceParts& sources, double radius) {
+void ExactWindows::clear() {
     if (++run_ == 0) {
         std::fill(vertices_.begin(), vertices_.end(), Arrival{});
         std::fill(best_.begin(), best_.end(), Best{});
@@ -341,13 +339,17 @@ bool ExactWindows::run(const SourceParts& sources, double radius) {
     reached_.clear();
     queue_.clear();
     windows_ = 0;
-    last_bucket_ = queue_.bucket_of(radius);
+}
+
+void ExactWindows::add(const SourceParts& sources) {
+    queue_.rewind();
+    std::vector<uint32_t> at_vertices;
     for (const Seed& seed : sources.seeds) {
         if (seed.side == no_index && known(seed.vertex) > 0) {
             arrive(seed.vertex, 0, no_index, 0);
+            at_vertices.push_back(seed.vertex);
         }
     }
-    const std::vector<uint32_t> at_vertices = reached_;
     for (const uint32_t source : at_vertices) {
         bend_at(source);
     }
@@ -359,6 +361,10 @@ bool ExactWindows::run(const SourceParts& sources, double radius) {
     for (const Segment& line : sources.segments) {
         start_line(line);
     }
+}
+
+bool ExactWindows::grow(double radius) {
+    queue_.open_until(radius);
     while (!queue_.empty()) {
         const Window window = queue_.pop();
         if (window.side != no_index) {

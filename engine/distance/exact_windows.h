@@ -16,10 +16,16 @@ class ExactWindows {
   public:
     ExactWindows(const TriangleGraph& graph, const WindowTable& table);
 
-    /// Propagates from the seeds until every vertex within `radius` (units of the graph) is final; those
-    /// values are bit for bit the ones of an unbounded run.
-    /// @return false if the windows became more than `most_windows` allows; the values are then of no use.
-    bool run(const SourceParts& sources, double radius);
+    /// Forgets the last run.
+    void clear();
+
+    /// More sources: what they improve is done again by the next grow(), and nothing else.
+    void add(const SourceParts& sources);
+
+    /// Propagates until every vertex within `radius` (units of the graph, not less than before) is final;
+    /// those values are bit for bit the ones of an unbounded run.
+    /// @return false if the windows became too many (2000 a vertex); the values are then of no use.
+    bool grow(double radius);
 
     /// Vertices that have a value, in order of arrival; values beyond the radius need not be final.
     std::span<const uint32_t> reached() const { return reached_; }
@@ -69,7 +75,6 @@ class ExactWindows {
     BucketQueue<Window> queue_;
     std::vector<uint32_t> reached_;
     uint32_t run_ = 0;
-    size_t last_bucket_ = 0;
     size_t windows_ = 0;
 };
 

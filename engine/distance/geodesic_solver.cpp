@@ -25,6 +25,12 @@ TriangleGraph checked_graph(const Mesh& mesh, std::span<const Vec3> positions) {
     return make_triangle_graph(mesh.triangles, positions, number_by_place(mesh.triangles, positions));
 }
 
+void check_radius(double radius) {
+    if (!(radius >= 0)) {
+        throw InputError("distances: the radius is " + std::to_string(radius) + "; give a number >= 0");
+    }
+}
+
 FanTable flipped_table(TriangleGraph graph) {
     const std::vector<DirectionOrigin> origins = flip_to_delaunay(graph);
     return make_fan_table(graph, origins);
@@ -52,9 +58,7 @@ struct GeodesicSolver::State {
     explicit State(TriangleGraph prepared) : graph(std::move(prepared)), fans(flipped_table(graph)) {}
 
     DistanceField solve(const SourceParts& sources, double radius, DistanceMethod method) {
-        if (!(radius >= 0)) {
-            throw InputError("distances: the radius is " + std::to_string(radius) + "; give a number >= 0");
-        }
+        check_radius(radius);
         const double bound = radius / graph.unit;
         DistanceField field;
         if (method == DistanceMethod::exact && exact(sources, bound, field)) {
@@ -68,8 +72,10 @@ struct GeodesicSolver::State {
     }
 
     DistanceField approximate(const SourceParts& sources, double bound) {
-        std::unique_ptr<VertexFronts> fronts = front_pool.borrow([&] { return VertexFronts(fans); });
-        fronts->run(front_seeds(graph, fans, sources.seeds), bound);
+        std::unique_ptr<VertexFronts> fronts = borrow_fronts();
+        fronts->clear();
+        fronts->add(front_seeds(graph, fans, sources.seeds));
+        fronts->grow(bound);
         DistanceField field = collect(*fronts, graph, bound);
         field.method = DistanceMethod::approximate;
         front_pool.give_back(std::move(fronts));
@@ -78,16 +84,24 @@ struct GeodesicSolver::State {
 
     /// @return false if the surface has too many windows.
     bool exact(const SourceParts& sources, double bound, DistanceField& field) {
-        std::call_once(windows_prepared, [&] { window_table = make_window_table(graph); });
-        std::unique_ptr<ExactWindows> windows =
-            window_pool.borrow([&] { return ExactWindows(graph, window_table); });
-        const bool done = windows->run(sources, bound);
+        std::unique_ptr<ExactWindows> windows = borrow_windows();
+        windows->clear();
+        windows->add(sources);
+        const bool done = windows->grow(bound);
         if (done) {
             field = collect(*windows, graph, bound);
             field.method = DistanceMethod::exact;
         }
         window_pool.give_back(std::move(windows));
         return done;
+    }
+
+    std::unique_ptr<VertexFronts> borrow_fronts() {
+        return front_pool.borrow([&] { return VertexFronts(fans); });
+    }
+    std::unique_ptr<ExactWindows> borrow_windows() {
+        std::call_once(windows_prepared, [&] { window_table = make_window_table(graph); });
+        return window_pool.borrow([&] { return ExactWindows(graph, window_table); });
     }
 
     bool deserves_exact(const DistanceField& field) const {
@@ -107,7 +121,7 @@ struct GeodesicSolver::State {
 };
 
 GeodesicSolver::GeodesicSolver(const Mesh& mesh, std::span<const Vec3> positions)
-    : state_(std::make_unique<State>(checked_graph(mesh, positions))) {}
+    : state_(std::make_shared<State>(checked_graph(mesh, positions))) {}
 GeodesicSolver::~GeodesicSolver() = default;
 GeodesicSolver::GeodesicSolver(GeodesicSolver&&) noexcept = default;
 GeodesicSolver& GeodesicSolver::operator=(GeodesicSolver&&) noexcept = default;
@@ -121,6 +135,82 @@ DistanceField GeodesicSolver::solve(const DistanceSources& sources, double radiu
                                     DistanceMethod method) const {
     return state_->solve(source_parts(state_->graph, sources.points, sources.polylines, sources.triangles),
                          radius, method);
+}
+
+GeodesicMarch GeodesicSolver::march(DistanceMethod method) const {
+    return {state_, method};
+}
+
+struct GeodesicMarch::Work {
+    Work(std::shared_ptr<GeodesicSolver::State> owner, DistanceMethod method) : state(std::move(owner)) {
+        if (method == DistanceMethod::exact) {
+            windows = state->borrow_windows();
+            windows->clear();
+        } else {
+            fronts = state->borrow_fronts();
+            fronts->clear();
+        }
+    }
+    ~Work() {
+        if (windows) {
+            state->window_pool.give_back(std::move(windows));
+        } else {
+            state->front_pool.give_back(std::move(fronts));
+        }
+    }
+    Work(const Work&) = delete;
+    Work& operator=(const Work&) = delete;
+
+    std::shared_ptr<GeodesicSolver::State> state;
+    std::unique_ptr<VertexFronts> fronts; ///< one of the two
+    std::unique_ptr<ExactWindows> windows;
+    double bound = 0;
+    uint32_t labels = 0;
+};
+
+GeodesicMarch::GeodesicMarch(std::shared_ptr<GeodesicSolver::State> state, DistanceMethod method)
+    : work_(std::make_unique<Work>(std::move(state), method)) {}
+GeodesicMarch::~GeodesicMarch() = default;
+GeodesicMarch::GeodesicMarch(GeodesicMarch&&) noexcept = default;
+GeodesicMarch& GeodesicMarch::operator=(GeodesicMarch&&) noexcept = default;
+
+void GeodesicMarch::add(const DistanceSources& sources) {
+    const TriangleGraph& graph = work_->state->graph;
+    SourceParts parts = source_parts(graph, sources.points, sources.polylines, sources.triangles);
+    for (Seed& seed : parts.seeds) {
+        seed.label += work_->labels;
+    }
+    work_->labels +=
+        static_cast<uint32_t>(sources.points.size() + sources.polylines.size() + sources.triangles.size());
+    if (work_->windows) {
+        work_->windows->add(parts);
+    } else {
+        work_->fronts->add(front_seeds(graph, work_->state->fans, parts.seeds));
+    }
+    march_on();
+}
+
+void GeodesicMarch::grow(double radius) {
+    check_radius(radius);
+    work_->bound = std::max(work_->bound, radius / work_->state->graph.unit);
+    march_on();
+}
+
+void GeodesicMarch::march_on() {
+    if (!work_->windows) {
+        work_->fronts->grow(work_->bound);
+    } else if (!work_->windows->grow(work_->bound)) {
+        throw InputError(
+            "distances: the exact method needs too many windows on this surface; use \"approximate\"");
+    }
+}
+
+DistanceField GeodesicMarch::field() const {
+    const TriangleGraph& graph = work_->state->graph;
+    DistanceField field = work_->windows ? collect(*work_->windows, graph, work_->bound)
+                                         : collect(*work_->fronts, graph, work_->bound);
+    field.method = work_->windows ? DistanceMethod::exact : DistanceMethod::approximate;
+    return field;
 }
 
 std::vector<double> DistanceField::dense(size_t vertex_count) const {

@@ -94,9 +94,7 @@ void VertexFronts::accept(uint32_t vertex, float distance, float offset, float d
         direction += front.total;
     }
     front.back = direction;
-    if (queue_.bucket_of(distance + delay) <= last_bucket_) {
-        queue_.push(distance + delay, {distance, vertex});
-    }
+    queue_.push(distance + delay, {distance, vertex});
 }
 
 void VertexFronts::update(uint32_t from, const Opposite& o) {
@@ -300,7 +298,7 @@ void VertexFronts::find_again(uint32_t vertex) {
     }
 }
 
-void VertexFronts::run(std::span<const FrontSeed> seeds, double radius) {
+void VertexFronts::clear() {
     run_stamp_ += run_step;
     if (run_stamp_ >= no_index - run_step) {
         for (Front& front : fronts_) {
@@ -310,7 +308,10 @@ void VertexFronts::run(std::span<const FrontSeed> seeds, double radius) {
     }
     reached_.clear();
     queue_.clear();
-    last_bucket_ = queue_.bucket_of(radius + slack_);
+}
+
+void VertexFronts::add(std::span<const FrontSeed> seeds) {
+    queue_.rewind();
     least_ = -1;
     for (const FrontSeed& seed : seeds) {
         const Front& front = fronts_[seed.vertex];
@@ -318,6 +319,10 @@ void VertexFronts::run(std::span<const FrontSeed> seeds, double radius) {
             accept(seed.vertex, seed.distance, seed.offset, seed.direction, seed.label, ~seed.vertex);
         }
     }
+}
+
+void VertexFronts::grow(double radius) {
+    queue_.open_until(radius + slack_);
     while (!queue_.empty()) {
         const Waiting next = queue_.pop();
         Front& front = fronts_[next.vertex];

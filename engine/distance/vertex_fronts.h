@@ -24,9 +24,15 @@ class VertexFronts {
   public:
     explicit VertexFronts(const FanTable& table);
 
-    /// Marches from the seeds until every vertex within `radius` (units of the graph) has the value of an
-    /// unbounded run, bit for bit.
-    void run(std::span<const FrontSeed> seeds, double radius);
+    /// Forgets the last run.
+    void clear();
+
+    /// More sources: what they improve is done again by the next grow(), and nothing else.
+    void add(std::span<const FrontSeed> seeds);
+
+    /// Marches on until every vertex within `radius` (units of the graph, not less than before) has the value
+    /// of an unbounded run, bit for bit.
+    void grow(double radius);
 
     /// Vertices that have a value, in order of arrival; values beyond the radius need not be final.
     std::span<const uint32_t> reached() const { return reached_; }
@@ -66,9 +72,8 @@ class VertexFronts {
     BucketQueue<Waiting> queue_;
     std::vector<uint32_t> reached_;
     uint32_t run_stamp_ = 0;
-    float least_ = 0; ///< values below this come too late: the front has passed
+    float least_ = -1; ///< values below this come too late: the front has passed
     float slack_ = 0;
-    size_t last_bucket_ = 0;
 };
 
 } // namespace anvil
