@@ -18,30 +18,23 @@ Vec3 perpendicular_part(const Vec3& v, const Vec3& axis) {
 
 } // namespace
 
-double radians(double degrees) {
-    return degrees * (std::numbers::pi / 180);
-}
+Rotation::Rotation(const Vec3& through, const Vec3& along) : origin(through), direction(unit(along)) {}
 
-Vec3 rotated(const Vec3& p, const Vec3& origin, const Vec3& direction, double degrees) {
-    const Vec3 axis = unit(direction);
+Vec3 Rotation::turned(const Vec3& p, double angle) const {
     const Vec3 arm = p - origin;
-    const double angle = radians(degrees);
+    const Vec3 across = glm::cross(direction, arm);
     const double half_sine = std::sin(0.5 * angle);
-    const Vec3 across = glm::cross(axis, arm);
-    // Increments on p: small angles and points on the axis keep all digits.
-    return p + std::sin(angle) * across + 2 * half_sine * half_sine * glm::cross(axis, across);
+    return p + std::sin(angle) * across + 2 * half_sine * half_sine * glm::cross(direction, across);
 }
 
-double angle_to_reach(const Vec3& p, const Vec3& origin, const Vec3& direction, const Vec3& target) {
-    const Vec3 axis = unit(direction);
-    const Vec3 from = unit(perpendicular_part(p - origin, axis));
-    const Vec3 to = unit(perpendicular_part(target - origin, axis));
+double Rotation::angle_to_reach(const Vec3& p, const Vec3& target) const {
+    const Vec3 from = unit(perpendicular_part(p - origin, direction));
+    const Vec3 to = unit(perpendicular_part(target - origin, direction));
     if (from == Vec3(0.0) || to == Vec3(0.0)) {
         return 0;
     }
-    const double sine = glm::dot(axis, glm::cross(from, to));
-    const double degrees = std::atan2(sine, glm::dot(from, to)) * (180 / std::numbers::pi);
-    return degrees <= -180 ? 180 : degrees;
+    const double angle = std::atan2(glm::dot(direction, glm::cross(from, to)), glm::dot(from, to));
+    return angle <= -std::numbers::pi ? std::numbers::pi : angle;
 }
 
 } // namespace anvil

@@ -38,41 +38,19 @@ std::vector<double> displacement_targets(const Edit& edit, const EditRegion& reg
     return targets;
 }
 
-std::vector<double> angle_targets(const Edit& edit, const EditRegion& region) {
+std::vector<double> angle_targets(const Edit& edit, const EditRegion& region, const Rotation& turn) {
     std::vector<double> targets;
     for (size_t i = 0; i < edit.handles.size(); ++i) {
         const Handle& handle = edit.handles[i];
-        const double degrees = handle.degrees ? *handle.degrees
-                                              : angle_to_reach(region.handle_positions[i], edit.axis.origin,
-                                                               edit.axis.direction, *handle.to);
-        targets.push_back(edit.amount * glm::radians(degrees));
+        const double angle = handle.degrees ? glm::radians(*handle.degrees)
+                                            : turn.angle_to_reach(region.handle_positions[i], *handle.to);
+        targets.push_back(edit.amount * angle);
     }
     return targets;
 }
 
-/// The rotation about the edit's axis.
-struct Turn {
-    Vec3 origin;
-    Vec3 direction; ///< unit
-
-    Vec3 operator()(const Vec3& p, double angle) const {
-        const Vec3 arm = p - origin;
-        const Vec3 across = arm - direction * glm::dot(direction, arm);
-        const Vec3 turned = glm::cross(direction, arm);
-        const double half = 0.5 * angle;
-        return p + 2 * std::sin(half) * (std::cos(half) * turned - std::sin(half) * across);
-    }
-
-    /// Angle from p to q about the axis, in (-pi, pi].
-    double between(const Vec3& p, const Vec3& q) const {
-        const Vec3 a = p - origin - direction * glm::dot(direction, p - origin);
-        const Vec3 b = q - origin - direction * glm::dot(direction, q - origin);
-        return std::atan2(glm::dot(direction, glm::cross(a, b)), glm::dot(a, b));
-    }
-};
-
 /// Where handle i ends when its vertices turn by sum_j alpha_j(v) x_j.
-Vec3 turned_handle(const EditRegion& region, std::span<const Vec3> positions, const Turn& turn,
+Vec3 turned_handle(const EditRegion& region, std::span<const Vec3> positions, const Rotation& turn,
                    std::span<const double> x, size_t i) {
     Vec3 end(0);
     for (const VertexWeight& w : region.handle_weights[i]) {
@@ -80,19 +58,19 @@ Vec3 turned_handle(const EditRegion& region, std::span<const Vec3> positions, co
         for (size_t j = 0; j < x.size(); ++j) {
             angle += region.weight(j, w.vertex) * x[j];
         }
-        end += w.weight * turn(positions[w.vertex], angle);
+        end += w.weight * turn.turned(positions[w.vertex], angle);
     }
     return end;
 }
 
 /// Missing angle of every handle: target minus where the point on the moved face stands.
 std::vector<double> missing_angles(const EditRegion& region, std::span<const Vec3> positions,
-                                   const Turn& turn, std::span<const double> x,
+                                   const Rotation& turn, std::span<const double> x,
                                    std::span<const double> targets) {
     std::vector<double> missing(targets.size());
     for (size_t i = 0; i < targets.size(); ++i) {
-        const Vec3 wanted = turn(region.handle_positions[i], targets[i]);
-        missing[i] = turn.between(turned_handle(region, positions, turn, x, i), wanted);
+        const Vec3 wanted = turn.turned(region.handle_positions[i], targets[i]);
+        missing[i] = turn.angle_to_reach(turned_handle(region, positions, turn, x, i), wanted);
     }
     return missing;
 }
@@ -106,7 +84,7 @@ bool any_inside_face(const EditRegion& region) {
     return false;
 }
 
-void correct_angles(const EditRegion& region, std::span<const Vec3> positions, const Turn& turn,
+void correct_angles(const EditRegion& region, std::span<const Vec3> positions, const Rotation& turn,
                     const std::vector<double>& a, std::span<const double> targets, Solution& solution) {
     for (int step = 0; step < newton_steps; ++step) {
         const auto missing = missing_angles(region, positions, turn, solution.x, targets);
@@ -149,8 +127,8 @@ EditMotion rotation(const Edit& edit, const EditRegion& region, std::span<const 
                     const std::vector<double>& a, const std::vector<std::string>& names, const Vec3& origin,
                     Log& log) {
     EditMotion result;
-    const Turn turn{edit.axis.origin, edit.axis.direction / glm::length(edit.axis.direction)};
-    const auto targets = angle_targets(edit, region);
+    const Rotation turn(edit.axis.origin, edit.axis.direction);
+    const auto targets = angle_targets(edit, region, turn);
     result.solution = solve_constraints(a, targets, 1);
     check_targets(result.solution, targets, edit.least_squares, names, log);
     if (any_inside_face(region) && !edit.least_squares) {
@@ -158,7 +136,8 @@ EditMotion rotation(const Edit& edit, const EditRegion& region, std::span<const 
     }
     for (size_t i = 0; i < edit.handles.size(); ++i) {
         const Vec3 end = turned_handle(region, positions, turn, result.solution.x, i);
-        result.target_errors.push_back(glm::length(end - turn(region.handle_positions[i], targets[i])));
+        result.target_errors.push_back(
+            glm::length(end - turn.turned(region.handle_positions[i], targets[i])));
         result.motion.targets.emplace_back(result.solution.x[i], 0, 0);
     }
     result.motion.kind = edit.sweep == Sweep::arc ? MotionKind::arc : MotionKind::chord;

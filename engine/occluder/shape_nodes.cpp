@@ -1,6 +1,7 @@
 #include "engine/occluder/shape_nodes.h"
 
 #include "engine/core/error.h"
+#include "engine/edit/rotation.h"
 
 #include <algorithm>
 #include <string>
@@ -10,11 +11,6 @@ namespace anvil {
 namespace {
 
 namespace k = kernel::f64;
-
-Vec3 rotated(const Vec3& v, const Vec3& axis, double angle) {
-    return std::cos(angle) * v + std::sin(angle) * glm::cross(axis, v) +
-           (1 - std::cos(angle)) * glm::dot(axis, v) * axis;
-}
 
 /// Exact for quarter turns, so that a box turned by 90 degrees keeps its planes.
 Placement quarter_exact(Placement p, double degrees) {
@@ -107,9 +103,9 @@ Placement placement(const Transform& transform) {
     Placement result;
     result.origin = transform.translate;
     result.scale = transform.scale;
-    const Vec3 axis = transform.axis / glm::length(transform.axis);
-    for (Vec3& a : result.axes) {
-        a = rotated(a, axis, glm::radians(transform.degrees));
+    const Rotation rotation(Vec3(0), transform.axis);
+    for (Vec3& axis : result.axes) {
+        axis = rotation.turned(axis, glm::radians(transform.degrees));
     }
     return quarter_exact(result, transform.degrees);
 }

@@ -14,6 +14,15 @@ double distance(const Vec3& a, const Vec3& b) {
     return glm::length(a - b);
 }
 
+Vec3 rotated(const Vec3& p, const Vec3& origin, const Vec3& axis, double degrees) {
+    return Rotation(origin, axis).turned(p, glm::radians(degrees));
+}
+
+/// In degrees.
+double angle_to_reach(const Vec3& p, const Vec3& origin, const Vec3& axis, const Vec3& target) {
+    return glm::degrees(Rotation(origin, axis).angle_to_reach(p, target));
+}
+
 } // namespace
 
 TEST_CASE("a quarter turn about y takes z to x") {
