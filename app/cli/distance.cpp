@@ -28,6 +28,7 @@ void check(const Options& options) {
         throw InputError("--radius: found " + std::to_string(*options.radius) +
                          "; give a length greater than 0");
     }
+    check_picture_name(options.picture.path);
     if (options.picture.wanted()) {
         options.picture.size();
         options.picture.view();

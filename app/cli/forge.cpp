@@ -2,8 +2,10 @@
 #include "app/cli/backend_choice.h"
 #include "app/cli/command.h"
 #include "app/cli/forge_picture.h"
+#include "app/cli/picture_options.h"
 #include "engine/core/error.h"
 #include "engine/edit/recipe_json.h"
+#include "engine/mesh/mesh_format.h"
 #include "engine/mesh/mesh_reader.h"
 #include "engine/mesh/mesh_writer.h"
 #include "engine/mesh/normals.h"
@@ -53,6 +55,8 @@ bool same_file(const fs::path& a, const fs::path& b) {
 
 /// Refuses before any work what would destroy an input or one output with another.
 void check_outputs(const ForgeArguments& arguments, const fs::path& mesh, const fs::path& out) {
+    mesh_format(out); // refuses what could not be written
+    check_picture_name(arguments.image);
     const std::vector<std::pair<std::string, fs::path>> outputs{
         {"-o", out}, {"--image", arguments.image}, {"--report", arguments.report}};
     for (size_t i = 0; i < outputs.size(); ++i) {

@@ -1,5 +1,9 @@
 #include "app/cli/picture_options.h"
 
+#include "engine/core/error.h"
+
+#include <filesystem>
+
 namespace anvil {
 
 PictureSize PictureOptions::size() const {
@@ -8,6 +12,12 @@ PictureSize PictureOptions::size() const {
 
 PictureView PictureOptions::view() const {
     return view_text.empty() ? PictureView() : parse_view(view_text);
+}
+
+void check_picture_name(const std::string& path) {
+    if (!path.empty() && std::filesystem::path(path).extension() != ".png") {
+        throw InputError("--image " + path + ": pictures are PNG files; give a name that ends with .png");
+    }
 }
 
 void add_picture_options(Command& command, PictureOptions& options) {

@@ -21,6 +21,9 @@ struct PictureOptions {
     PictureView view() const; ///< @throws InputError
 };
 
+/// @throws InputError unless `path` is empty or ends with .png: pictures have that format alone.
+void check_picture_name(const std::string& path);
+
 void add_picture_options(Command& command, PictureOptions& options);
 
 /// Draws and writes the PNG file. @throws DeviceError, WriteError

@@ -133,6 +133,7 @@ TEST_CASE("forge refuses to overwrite what it reads, by whatever name, before an
         {"--report", "pull.json"},
         {"-o", "same", "--report", "same"},
         {"-o", "out.xyz"},
+        {"-o", "out.ply", "--image", "out.jpg"},
         {"-o", "out.ply", "--size", "big", "--image", "out.png"},
     };
     for (const auto& arguments : wrong) {
