@@ -49,7 +49,13 @@ void Command::number(const std::string& names, std::optional<double>& value, con
 }
 
 void Command::count(const std::string& names, size_t& value, const std::string& help) {
-    app_.add_option(names, value, help)->check(CLI::NonNegativeNumber)->capture_default_str();
+    app_.add_option(names, value, help)
+        ->check([](const std::string& text) {
+            // A negative number would wrap round to a huge one.
+            return text.starts_with("-") ? "found " + text + "; give a whole number, not negative"
+                                         : std::string();
+        })
+        ->capture_default_str();
 }
 
 void Command::repeated(const std::string& names, std::vector<std::string>& values, const std::string& help) {
