@@ -59,7 +59,7 @@ class ExactWindows {
     bool is_dominated(uint32_t from, uint32_t to, double length, const Window& window) const;
     void arrive(uint32_t vertex, double distance, uint32_t side, double angle);
     void start_in_triangle(const Seed& seed);
-    void start_line(const Segment& segment);
+    void start_line(const Segment& line);
     void push(const Window& window, double key);
     void enter(const Child& child);
     void cross(const Window& window);

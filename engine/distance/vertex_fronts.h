@@ -61,7 +61,7 @@ class VertexFronts {
     void accept(uint32_t vertex, float distance, float offset, float direction, uint32_t label,
                 uint32_t parents, float delay = 0);
     void march_from(uint32_t vertex);
-    void update(uint32_t from, const Opposite& corner);
+    void update(uint32_t from, const Opposite& o);
     bool may_lower(const Front& a, const Front& corner, float length, float x, float y) const;
     void follow_edge(uint32_t from, const Spoke& spoke);
     void repair_around(uint32_t vertex);
