@@ -97,8 +97,11 @@ TEST_CASE("a mesh of float coordinates, a million units from the origin, deforms
     const ForgeResult a = forged_on_cpu(near, recipe(Vec3(0)));
     const ForgeResult b = forged_on_cpu(moved, recipe(far));
     CHECK(a.report.edits[0].contact->contact_vertices > 0);
-    CHECK(a.report.edits[0].moved == b.report.edits[0].moved);
     for (size_t v = 0; v < near.vertex_count(); ++v) {
+        // A displacement at the region's rim that is smaller than the spacing of doubles there is none.
+        if (a.moved[v] != b.moved[v]) {
+            CHECK(glm::length(a.positions[v] - near.positions[v]) < 1.2e-10);
+        }
         // Doubles at 1e6 are 1.2e-10 apart; contact amplifies the rounding of the ball's place a little.
         CHECK(glm::length(b.positions[v] - far - a.positions[v]) < 1e-8);
     }
