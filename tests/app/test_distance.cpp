@@ -23,15 +23,15 @@ std::vector<double> numbers_in(const std::string& text) {
 // A flat strip of unit squares cut in two: distances are exact by hand, and one part is out of reach.
 //   3 4 5     9 ...
 //   0 1 2     6 7 (8: the far triangle)
-const char* const strip = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\n"
-                          "v 9 0 0\nv 9 1 0\nv 8 0 0\n"
-                          "f 1 2 5 4\nf 2 3 6 5\nf 7 8 9\n";
+const char* const strip_text = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\n"
+                               "v 9 0 0\nv 9 1 0\nv 8 0 0\n"
+                               "f 1 2 5 4\nf 2 3 6 5\nf 7 8 9\n";
 
 struct Strip {
     ScratchFolder folder;
     std::string mesh = folder / "strip.obj";
 
-    Strip() { std::ofstream(mesh) << strip; }
+    Strip() { std::ofstream(mesh) << strip_text; }
 
     ProgramRun run(std::vector<std::string> arguments) const {
         arguments.insert(arguments.begin(), {"distance", mesh});
