@@ -37,6 +37,7 @@ struct DeformMotion {
     Vec3 axis_origin{0};          ///< relative to the local origin
     Vec3 axis_direction{0, 1, 0}; ///< unit
     std::vector<Vec3> targets;
+    std::vector<double> times; ///< S, ascending to 1: when each sample is reached; empty: equal parts
     bool fixed_steps =
         false; ///< exactly `steps` equal steps a path segment, else adaptive with at most `steps`
     uint32_t steps = 4096;

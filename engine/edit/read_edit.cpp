@@ -1,4 +1,7 @@
+#include "engine/edit/handle_path.h"
 #include "engine/edit/recipe_parts.h"
+
+#include "engine/core/error.h"
 
 #include <algorithm>
 
@@ -18,22 +21,46 @@ Metric read_metric(const JsonReader& metric) {
 
 void check_target_keys(const JsonReader& handle, EditKind kind) {
     const bool moves = kind == EditKind::translate;
-    const std::string own = moves ? "by" : "degrees";
-    const std::string foreign = moves ? "degrees" : "by";
-    const std::string where = moves ? "a translation" : "a rotation";
-    if (handle.has(foreign)) {
-        handle.fail("\"" + foreign + "\" does not fit " + where + "; give \"" + own + "\" or \"to\"");
+    const std::string choice = moves ? R"("by" or "to" (or a "path"))" : R"("degrees" or "to")";
+    const auto given = [&](const std::vector<std::string>& keys) {
+        std::vector<std::string> found;
+        std::copy_if(keys.begin(), keys.end(), std::back_inserter(found),
+                     [&](const std::string& key) { return handle.has(key); });
+        return found;
+    };
+    using Words = std::vector<std::string>;
+    if (const Words foreign = given(moves ? Words{"degrees"} : Words{"by", "path"}); !foreign.empty()) {
+        handle.fail("\"" + foreign[0] + "\" does not fit " + (moves ? "a translation" : "a rotation") +
+                    "; give " + choice);
     }
-    if (handle.has(own) && handle.has("to")) {
-        handle.fail("found both \"" + own + "\" and \"to\"; give one of them");
+    const Words own = given(moves ? Words{"by", "to", "path"} : Words{"degrees", "to"});
+    if (own.size() > 1) {
+        handle.fail("found both \"" + own[0] + "\" and \"" + own[1] + "\"; give one of them");
     }
-    if (!handle.has(own) && !handle.has("to")) {
-        handle.fail("the handle has no target; give \"" + own + "\" or \"to\"");
+    if (own.empty()) {
+        handle.fail("the handle has no target; give " + choice);
     }
 }
 
+std::vector<Vec3> read_path(const JsonReader& path) {
+    std::vector<Vec3> offsets;
+    for (const JsonReader& item : path.items()) {
+        offsets.push_back(item.vector());
+    }
+    if (offsets.size() < 2) {
+        path.fail_found("a path has at least two offsets from the handle's start, e.g. [[0,0,0], [0,1,0], "
+                        "[1,1,0]]; for one straight move give \"by\"");
+    }
+    try {
+        HandlePath{offsets};
+    } catch (const InputError& error) {
+        path.fail(error.what());
+    }
+    return offsets;
+}
+
 Handle read_handle(const JsonReader& handle, EditKind kind) {
-    handle.check_keys({"at", "by", "to", "degrees", "radius", "shape", "metric"}, {"path"});
+    handle.check_keys({"at", "by", "to", "path", "degrees", "radius", "shape", "metric"});
     check_target_keys(handle, kind);
     Handle result;
     result.at = read_address(handle.required("at"));
@@ -42,6 +69,9 @@ Handle read_handle(const JsonReader& handle, EditKind kind) {
     }
     if (const auto to = handle.find("to")) {
         result.to = to->vector();
+    }
+    if (const auto path = handle.find("path")) {
+        result.path = read_path(*path);
     }
     if (const auto degrees = handle.find("degrees")) {
         result.degrees = degrees->number();

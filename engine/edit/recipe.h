@@ -35,12 +35,13 @@ struct Axis {
     bool operator==(const Axis&) const = default;
 };
 
-/// A point of the surface with its target: exactly one of `by` and `to` in a translation, exactly one of
-/// `degrees` and `to` in a rotation. radius (world units, > 0), shape and metric win over the edit's.
+/// A point of the surface with its target: exactly one of `by`, `to` and `path` in a translation, exactly one
+/// of `degrees` and `to` in a rotation. radius (world units, > 0), shape and metric win over the edit's.
 struct Handle {
     SurfaceAddress at;
     std::optional<Vec3> by;
     std::optional<Vec3> to;
+    std::vector<Vec3> path; ///< offsets from the start, at least two; empty: none. See HandlePath
     std::optional<double> degrees;
     std::optional<double> radius;
     std::optional<ShapeChoice> shape;

@@ -122,6 +122,9 @@ Json written(const Handle& handle) {
     if (handle.to) {
         result["to"] = written(*handle.to);
     }
+    if (!handle.path.empty()) {
+        result["path"] = list_of(handle.path);
+    }
     if (handle.degrees) {
         result["degrees"] = *handle.degrees;
     }

@@ -1,8 +1,10 @@
 #include "engine/forge/edit_motion.h"
 
 #include "engine/core/error.h"
+#include "engine/edit/handle_path.h"
 #include "engine/edit/rotation.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace anvil {
@@ -26,16 +28,63 @@ std::vector<double> system_matrix(const EditRegion& region) {
     return a;
 }
 
-std::vector<double> displacement_targets(const Edit& edit, const EditRegion& region) {
+HandlePath path_of(const Handle& handle, const Vec3& start) {
+    if (!handle.path.empty()) {
+        return HandlePath(handle.path);
+    }
+    const Vec3 by = handle.by ? *handle.by : *handle.to - start;
+    return HandlePath({&by, 1});
+}
+
+/// The times at which the motion changes its direction, and the end. Equal steps are `count` segments, so
+/// that all of them are equal, whatever corners the path has.
+std::vector<double> sample_times(const std::vector<HandlePath>& paths, const Steps& steps) {
+    std::vector<double> times{1};
+    for (const HandlePath& path : paths) {
+        const std::vector<double> corners = path.corners();
+        times.insert(times.end(), corners.begin(), corners.end());
+    }
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    if (times.size() == 1 || steps.adaptive) {
+        return times;
+    }
+    times.clear();
+    for (uint32_t i = 1; i <= steps.count; ++i) {
+        times.push_back(static_cast<double>(i) / steps.count);
+    }
+    return times;
+}
+
+/// D at every time, k x 3S: what the handles have moved by then.
+std::vector<double> displacement_targets(const Edit& edit, const std::vector<HandlePath>& paths,
+                                         const std::vector<double>& times) {
     std::vector<double> targets;
-    for (size_t i = 0; i < edit.handles.size(); ++i) {
-        const Handle& handle = edit.handles[i];
-        const Vec3 by = handle.by ? *handle.by : *handle.to - region.handle_positions[i];
-        for (int c = 0; c < 3; ++c) {
-            targets.push_back(edit.amount * by[c]);
+    for (const HandlePath& path : paths) {
+        for (const double t : times) {
+            const Vec3 by = edit.amount * path.at(t);
+            targets.insert(targets.end(), {by.x, by.y, by.z});
         }
     }
     return targets;
+}
+
+/// How far handle i is from its path, at most.
+double largest_miss(const std::vector<double>& a, const std::vector<double>& x,
+                    const std::vector<double>& targets, size_t k, size_t i) {
+    const size_t columns = targets.size() / k;
+    double largest = 0;
+    for (size_t s = 0; s < columns; s += 3) {
+        Vec3 miss(0);
+        for (int c = 0; c < 3; ++c) {
+            miss[c] = -targets[i * columns + s + c];
+            for (size_t j = 0; j < k; ++j) {
+                miss[c] += a[i * k + j] * x[j * columns + s + c];
+            }
+        }
+        largest = std::max(largest, glm::length(miss));
+    }
+    return largest;
 }
 
 std::vector<double> angle_targets(const Edit& edit, const EditRegion& region, const Rotation& turn) {
@@ -95,10 +144,9 @@ void correct_angles(const EditRegion& region, std::span<const Vec3> positions, c
     }
 }
 
-void set_steps(const Edit& edit, DeformMotion& motion, bool paper) {
-    const Steps steps = edit.steps.value_or(paper ? Steps{false, paper_steps} : Steps{});
+void set_steps(const Steps& steps, DeformMotion& motion) {
     motion.fixed_steps = !steps.adaptive;
-    motion.steps = steps.count;
+    motion.steps = !steps.adaptive && motion.times.size() > 1 ? 1 : steps.count;
 }
 
 std::vector<std::string> handle_names(const Edit& edit, const std::string& place) {
@@ -110,16 +158,27 @@ std::vector<std::string> handle_names(const Edit& edit, const std::string& place
 }
 
 EditMotion translation(const Edit& edit, const EditRegion& region, const std::vector<double>& a,
-                       const std::vector<std::string>& names, Log& log) {
+                       const std::vector<std::string>& names, const Steps& steps, Log& log) {
     EditMotion result;
-    const auto targets = displacement_targets(edit, region);
-    result.solution = solve_constraints(a, targets, 3);
-    check_targets(result.solution, targets, edit.least_squares, names, log);
-    result.target_errors = result.solution.target_error;
-    for (size_t j = 0; j < edit.handles.size(); ++j) {
-        const double* x = &result.solution.x[3 * j];
-        result.motion.targets.emplace_back(x[0], x[1], x[2]);
+    const size_t k = edit.handles.size();
+    std::vector<HandlePath> paths;
+    for (size_t i = 0; i < k; ++i) {
+        paths.push_back(path_of(edit.handles[i], region.handle_positions[i]));
     }
+    const std::vector<double> times = sample_times(paths, steps);
+    const auto targets = displacement_targets(edit, paths, times);
+    result.solution = solve_constraints(a, targets, 3 * times.size());
+    check_targets(result.solution, targets, edit.least_squares, names, log);
+    for (size_t i = 0; i < k; ++i) {
+        result.target_errors.push_back(largest_miss(a, result.solution.x, targets, k, i));
+    }
+    for (size_t s = 0; s < times.size(); ++s) {
+        for (size_t j = 0; j < k; ++j) {
+            const double* x = &result.solution.x[3 * (j * times.size() + s)];
+            result.motion.targets.emplace_back(x[0], x[1], x[2]);
+        }
+    }
+    result.motion.times = times;
     return result;
 }
 
@@ -152,10 +211,11 @@ EditMotion find_motion(const Edit& edit, const EditRegion& region, std::span<con
                        const Vec3& origin, const std::string& place, bool paper, Log& log) {
     const auto a = system_matrix(region);
     const auto names = handle_names(edit, place);
+    const Steps steps = edit.steps.value_or(paper ? Steps{false, paper_steps} : Steps{});
     EditMotion result = edit.kind == EditKind::translate
-                            ? translation(edit, region, a, names, log)
+                            ? translation(edit, region, a, names, steps, log)
                             : rotation(edit, region, positions, a, names, origin, log);
-    set_steps(edit, result.motion, paper);
+    set_steps(steps, result.motion);
     return result;
 }
 

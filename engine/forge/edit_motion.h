@@ -14,11 +14,13 @@ namespace anvil {
 struct EditMotion {
     DeformMotion motion;
     Solution solution;
-    std::vector<double> target_errors; ///< k, world units: how far each handle ends from its target
+    std::vector<double> target_errors; ///< k, world units: how far each handle ends from its target, or is
+                                       ///< from its path at worst
 };
 
 /// Solves A X = D (eq. 4-5, 9) for the partial displacements or angles. A(i,j) = sum_v b_v alpha_j(v) over
-/// the vertices that carry handle i. Rotations of handles inside faces are corrected by Newton steps, so that
+/// the vertices that carry handle i. Several paths share normalized arc length; the motion has a sample at
+/// each of their corners. Rotations of handles inside faces are corrected by Newton steps, so that
 /// the point on the moved face stands at the asked angle. `place` is "edits[i]"; `origin`: local origin;
 /// `paper`: the edit's occluders act by the paper's rule, whose default is 32 equal steps.
 /// @throws InputError if a target is out of reach and the edit does not ask for least squares.

@@ -44,7 +44,28 @@ TEST_CASE("a handle has one target that fits the kind of its edit") {
     check_complaint(with_handle("{" + at + R"(, "degrees": 3, "to": [0,0,1]})", "rotate"),
                     {"both \"degrees\" and \"to\""});
     check_complaint(with_handle("{" + at + "}", "rotate"), {"no target", "\"degrees\" or \"to\""});
-    check_complaint(with_handle("{" + at + R"(, "path": [[0,0,0]]})"), {"handles[0].path", "not yet"});
+    check_complaint(with_handle("{" + at + R"(, "path": [[0,0,0], [1,0,0]], "degrees": 3})", "rotate"),
+                    {"\"path\"", "rotation", "\"degrees\""});
+}
+
+TEST_CASE("a path has two offsets or more, and no other target beside it") {
+    const std::string at = R"("at": {"vertex": 1})";
+    const auto with_path = [&](const std::string& path) {
+        return with_handle("{" + at + R"(, "path": )" + path + "}");
+    };
+    check_complaint(with_path("[[0,0,0]]"), {"handles[0].path", "list of 1", "at least two", "\"by\""});
+    check_complaint(with_path("[]"), {"handles[0].path", "at least two"});
+    check_complaint(with_path("[[0,0,0], [1,2]]"), {"handles[0].path[1]", "[1,2]", "three numbers"});
+    check_complaint(with_path("[[0,0,0], [1e308,0,0]]"), {"handles[0].path", "longer"});
+    check_complaint(with_path("[[0,0,0], [1e999,0,0]]"), {"handles[0].path[1]", "1e999", "finite"});
+    check_complaint(with_handle("{" + at + R"(, "path": [[0,0,0], [1,0,0]], "by": [0,0,1]})"),
+                    {"handles[0]", "both \"by\" and \"path\""});
+    check_complaint(with_handle("{" + at + R"(, "path": [[0,0,0], [1,0,0]], "to": [0,0,1]})"),
+                    {"both \"to\" and \"path\""});
+    const Recipe recipe = parse(with_path("[[0,0,0], [0,-0.02,0], [0,-0.05,0.01]]"));
+    CHECK(recipe.edits[0].handles[0].path ==
+          std::vector<Vec3>{Vec3(0), Vec3(0, -0.02, 0), Vec3(0, -0.05, 0.01)});
+    CHECK(parse(write_recipe(recipe)) == recipe);
 }
 
 TEST_CASE("lengths and fractions outside their range are refused") {
