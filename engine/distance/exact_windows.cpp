@@ -9,22 +9,25 @@ constexpr double pi = std::numbers::pi;
 
 // A window is only dropped if it is worse by more than rounding, or it and an equal one could drop each
 // other.
-constexpr double worse = 1 - 1e-13;
+constexpr double worse = 1 - 1e-12;
 constexpr double better = 1 - 1e-15;
 constexpr double clearly_worse = 1 + 1e-11;
 constexpr double least_width = 1e-13; // of the side: narrower windows are rounding
 constexpr double cover_slack = 1e-9;  // of the side: a corner at a window's rim is covered by both neighbours
 constexpr double far_behind = 1e7;    // of a line's length
-constexpr double wedge_slack = 1e-10; // radians
+// Radians. Two ways to a vertex whose lengths differ by rounding arrive in directions that differ by its
+// root: a shadow is known no better.
+constexpr double wedge_slack = 1e-6;
 
 // Real meshes need 5 to 100 windows a vertex; the worst case is quadratic.
 constexpr size_t most_windows_a_vertex = 2000;
 constexpr size_t most_windows_anyway = 1 << 20;
 
 /// Where the ray from the source through `at` on the base meets the side that leaves the origin along
-/// `along`.
-double hit(double at, const PlanePoint& source, const PlanePoint& along) {
-    return at * source.y / (along.x * source.y - (at - source.x) * along.y);
+/// `along`, whose line passes the source at `depth`; infinite where the ray runs beside it.
+double hit(double at, const PlanePoint& source, const PlanePoint& along, double depth) {
+    const double descent = depth - at * along.y;
+    return descent > 0 ? at * source.y / descent : infinity;
 }
 
 } // namespace
@@ -155,14 +158,15 @@ void ExactWindows::cross(const Window& w) {
     if (goes_left && graph_.side_length[left] > 0) {
         const double side = graph_.side_length[left];
         const PlanePoint u{c.x / side, c.y / side};
-        const double begin = w.begin > 0 ? std::max(0.0, hit(w.begin, s, u)) : 0;
-        double end = crossing <= left_end ? side : hit(left_end, s, u);
-        end = end >= 0 && end <= side ? end : side;
-        if (end - begin > least_width * side) {
+        // Rays along a side, or behind it by rounding, do not leave through it.
+        const double depth = s.x * u.y + s.y * u.x;
+        const double begin = w.begin > 0 ? hit(w.begin, s, u, depth) : 0;
+        const double end = crossing <= left_end ? side : std::min(side, hit(left_end, s, u, depth));
+        if (depth > 0 && end - begin > least_width * side) {
             enter({left,
                    begin,
                    end,
-                   {s.x * u.x - s.y * u.y, s.x * u.y + s.y * u.x},
+                   {s.x * u.x - s.y * u.y, depth},
                    w.offset,
                    {length * u.x, length * u.y},
                    Child::Rim::begin});
@@ -174,14 +178,14 @@ void ExactWindows::cross(const Window& w) {
         const PlanePoint u{(length - c.x) / side, c.y / side};
         const PlanePoint m{length - s.x, s.y};
         const double first = length - w.end, last = length - right_begin;
-        const double begin = first > 0 ? std::max(0.0, hit(first, m, u)) : 0;
-        double end = crossing >= right_begin ? side : hit(last, m, u);
-        end = end >= 0 && end <= side ? end : side;
-        if (end - begin > least_width * side) {
+        const double depth = m.x * u.y + m.y * u.x;
+        const double begin = first > 0 ? hit(first, m, u, depth) : 0;
+        const double end = crossing >= right_begin ? side : std::min(side, hit(last, m, u, depth));
+        if (depth > 0 && end - begin > least_width * side) {
             enter({right,
                    side - end,
                    side - begin,
-                   {side - (m.x * u.x - m.y * u.y), m.x * u.y + m.y * u.x},
+                   {side - (m.x * u.x - m.y * u.y), depth},
                    w.offset,
                    {side - length * u.x, length * u.y},
                    Child::Rim::end});

@@ -13,27 +13,15 @@ double power_of_two_near(double extent) {
     return std::ldexp(1.0, std::clamp(std::ilogb(extent), -1000, 1000));
 }
 
-// On regular meshes rays meet vertices and each other exactly, and what decides is then rounding: windows
-// were lost that way on a torus of equal quads. A length changed by less than this leaves no ties.
-constexpr double tie_breaker = 1e-12;
-
-/// A number in [-1/2, 1/2) that depends on the edge alone.
-double noise(uint64_t a, uint64_t b) {
-    uint64_t bits = std::min(a, b) * 0x9E3779B97F4A7C15ULL ^ std::max(a, b) * 0xC2B2AE3D27D4EB4FULL;
-    bits = (bits ^ bits >> 29) * 0xBF58476D1CE4E5B9ULL;
-    return static_cast<double>(bits >> 40) / (1 << 24) - 0.5;
-}
-
 void measure_sides(TriangleGraph& graph, std::span<const Vec3> positions) {
     graph.side_length.resize(graph.corner_vertex.size());
     const double inverse = 1 / graph.unit;
     const std::vector<uint32_t>& mesh_vertex = graph.numbering.mesh_vertex;
     parallel_for(graph.triangle_count(), 1 << 14, [&](size_t begin, size_t end) {
         for (size_t side = 3 * begin; side < 3 * end; ++side) {
-            const uint32_t from = mesh_vertex[graph.corner_vertex[side]];
-            const uint32_t to = mesh_vertex[graph.to(static_cast<uint32_t>(side))];
-            graph.side_length[side] = glm::length((positions[to] - positions[from]) * inverse) *
-                                      (1 + tie_breaker * noise(from, to));
+            const Vec3& from = positions[mesh_vertex[graph.corner_vertex[side]]];
+            const Vec3& to = positions[mesh_vertex[graph.to(static_cast<uint32_t>(side))]];
+            graph.side_length[side] = glm::length((to - from) * inverse);
         }
     });
     for (const double length : graph.side_length) {

@@ -17,8 +17,7 @@ struct TriangleGraph {
     Numbering numbering;
     double unit = 1;                     ///< world length of 1
     std::vector<uint32_t> corner_vertex; ///< 3 per triangle
-    /// 3 per triangle; changed by up to 5e-13 of themselves, edge by edge, so that no two ways tie
-    std::vector<double> side_length;
+    std::vector<double> side_length;     ///< 3 per triangle
     /// The next side of the same edge, in a ring over all of them: 2 * side, + 1 if it runs the same way;
     /// no_index where no other side shares the edge. Triangles with a corner twice are not linked.
     std::vector<uint32_t> across;

@@ -8,8 +8,9 @@
 namespace anvil {
 namespace {
 
-// Sums of angles are rounded; a saddle by less than this bends nothing by more than rounding.
-constexpr double saddle_slack = 1e-9;
+// Sums of angles are rounded. The shadow of a saddle by less than this is, a thousand sides on, still
+// narrower than what windows see of the corners beside them.
+constexpr double saddle_slack = 1e-13;
 
 WindowTable::Bend bend_at(const TriangleGraph& graph, uint32_t vertex, double total) {
     const std::span<const uint32_t> sides = graph.sides_leaving(vertex);

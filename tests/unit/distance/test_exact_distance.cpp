@@ -1,4 +1,3 @@
-#include "engine/mesh/sample_shapes.h"
 #include "tests/unit/distance/surfaces.h"
 
 #include <catch2/catch.hpp>
@@ -14,9 +13,8 @@ namespace {
 
 constexpr DistanceMethod exact = DistanceMethod::exact;
 
-// Every window is laid out anew in each triangle that it crosses: some 100 times a few eps; and lengths are
-// changed by up to 5e-13 so that no two ways tie, which thin triangles pass on enlarged.
-constexpr double roundings = 4e-12;
+// Every window is laid out anew in each triangle that it crosses: some 100 times a few eps.
+constexpr double roundings = 1e-12;
 
 /// Shortest paths over a graph with `points` points inside every edge, joined straight across each triangle:
 /// an upper bound that falls to the distance as points are added.
@@ -280,31 +278,6 @@ TEST_CASE("approximate distances stay within a few tenths of a per cent of the e
             // grid.
             CHECK(sum / static_cast<double>(truth.size()) < 8e-4);
             CHECK(worst < 0.02);
-        }
-    }
-}
-
-TEST_CASE("exact distances differ by no more than the edge on regular meshes, where rays meet vertices and "
-          "each other") {
-    for (const char* shape : {"torus", "cube", "sphere", "cylinder"}) {
-        const Mesh mesh = make_sample(shape, 10000);
-        const GeodesicSolver solver(mesh, mesh.positions);
-        for (const size_t place : {0, 1, 2, 3, 4, 5}) {
-            const std::vector<SurfacePoint> source = {
-                vertex_source(mesh.triangles[place * mesh.triangles.size() / 6][0])};
-            const std::vector<double> found =
-                solver.solve(source, infinity, exact).dense(mesh.vertex_count());
-            double worst = -infinity;
-            for (const Triangle& t : mesh.triangles) {
-                for (int k = 0; k < 3; ++k) {
-                    const uint32_t a = t[k], b = t[(k + 1) % 3];
-                    const double beyond =
-                        std::abs(found[a] - found[b]) - glm::length(mesh.positions[a] - mesh.positions[b]);
-                    worst = beyond >= 0 || std::isfinite(beyond) ? std::max(worst, beyond) : infinity;
-                }
-            }
-            INFO(shape << " from " << source[0].vertex);
-            CHECK(worst < 10 * roundings);
         }
     }
 }
