@@ -2,10 +2,10 @@
 #include "app/cli/command.h"
 #include "app/cli/distance_picture.h"
 #include "engine/core/error.h"
+#include "engine/core/number_text.h"
 #include "engine/forge/surface_state.h"
 #include "engine/mesh/mesh_reader.h"
 
-#include <charconv>
 #include <memory>
 #include <optional>
 
@@ -25,7 +25,7 @@ struct Options {
 
 void check(const Options& options) {
     if (options.radius && !(*options.radius > 0)) {
-        throw InputError("--radius: found " + std::to_string(*options.radius) +
+        throw InputError("--radius: found " + number_text(*options.radius) +
                          "; give a length greater than 0");
     }
     check_picture_name(options.picture.path);
@@ -53,14 +53,12 @@ std::vector<double> find_distances(const Mesh& mesh, const Options& options) {
         .dense(mesh.vertex_count());
 }
 
-/// One per line, 17 significant digits: every double reads back as itself.
+/// One per line: every double reads back as itself.
 std::string lines_of(const std::vector<double>& numbers) {
     std::string text;
     text.reserve(numbers.size() * 20);
-    char buffer[40];
     for (const double x : numbers) {
-        const auto end = std::to_chars(buffer, buffer + sizeof buffer, x, std::chars_format::general, 17).ptr;
-        text.append(buffer, end);
+        append_17_digits(text, x);
         text += '\n';
     }
     return text;

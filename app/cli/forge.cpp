@@ -26,9 +26,7 @@ struct ForgeArguments {
     std::string mesh;
     std::string device = "auto";
     std::string precision = "auto";
-    std::string image;
-    std::string size = "1280x960";
-    std::string view = "0.35,0.25,1";
+    PictureOptions picture;
     std::string report;
     std::string parents;
     std::string delta;
@@ -56,9 +54,9 @@ bool same_file(const fs::path& a, const fs::path& b) {
 /// Refuses before any work what would destroy an input or one output with another.
 void check_outputs(const ForgeArguments& arguments, const fs::path& mesh, const fs::path& out) {
     mesh_format(out); // refuses what could not be written
-    check_picture_name(arguments.image);
+    check_picture_name(arguments.picture.path);
     const std::vector<std::pair<std::string, fs::path>> outputs{
-        {"-o", out}, {"--image", arguments.image}, {"--report", arguments.report}};
+        {"-o", out}, {"--image", arguments.picture.path}, {"--report", arguments.report}};
     for (size_t i = 0; i < outputs.size(); ++i) {
         if (outputs[i].second.empty()) {
             continue;
@@ -102,8 +100,8 @@ std::string summary(const ForgeResult& result, const fs::path& out) {
 
 void run_forge(const ForgeArguments& arguments, CommandContext& context) {
     using Clock = std::chrono::steady_clock;
-    const PictureView view = parse_view(arguments.view);
-    const PictureSize size = parse_size(arguments.size);
+    const PictureView view = arguments.picture.view();
+    const PictureSize size = arguments.picture.size();
     const Recipe recipe = read_recipe(arguments.recipe);
     const fs::path mesh_file = arguments.mesh.empty() ? mesh_path(recipe) : fs::path(arguments.mesh);
     const fs::path out = arguments.out.empty() ? default_output(arguments.recipe) : fs::path(arguments.out);
@@ -117,7 +115,7 @@ void run_forge(const ForgeArguments& arguments, CommandContext& context) {
     result.report.seconds.load = load_seconds;
 
     Picture picture;
-    if (!arguments.image.empty()) {
+    if (arguments.picture.wanted()) {
         const auto device = chosen.device ? chosen.device : std::make_shared<Device>();
         picture = forge_picture(*device, mesh, recipe, result, view, size, context.progress);
         check_validation(device);
@@ -126,8 +124,8 @@ void run_forge(const ForgeArguments& arguments, CommandContext& context) {
     const auto write_start = Clock::now();
     update_normals(mesh, result.positions, result.moved);
     write_mesh(out, mesh, result.positions, output_precision(arguments.precision));
-    if (!arguments.image.empty()) {
-        write_png(arguments.image, picture);
+    if (arguments.picture.wanted()) {
+        write_png(arguments.picture.path, picture);
     }
     result.report.seconds.write = seconds_since(write_start);
     if (!arguments.report.empty()) {
@@ -151,9 +149,7 @@ void add_forge(Program& program, CommandContext& context) {
     command.option("--device", a->device, "auto, cpu (double precision), a device's name or index");
     command.choice("--precision", a->precision, {"auto", "float", "double"},
                    "Numbers of the written mesh; auto: as the input needs");
-    command.option("--image", a->image, "Picture to write (PNG)");
-    command.option("--size", a->size, "Of the picture, WxH");
-    command.option("--view", a->view, "Of the picture: front, right, top, or a direction x,y,z to the eye");
+    add_picture_options(command, a->picture);
     command.option("--report", a->report, "Report to write (JSON)");
     command.option("--parents", a->parents, "Origin of refined vertices (not yet)");
     command.option("--delta", a->delta, "Blend shape of the original vertices (not yet)");

@@ -1,12 +1,12 @@
 #include "app/cli/command.h"
 #include "engine/core/decimal.h"
 #include "engine/core/error.h"
+#include "engine/core/number_text.h"
 #include "engine/core/parallel_for.h"
 #include "engine/core/read_file.h"
 #include "engine/edit/recipe_json.h"
 #include "engine/occluder/occluder_set.h"
 
-#include <charconv>
 #include <memory>
 #include <string_view>
 
@@ -86,8 +86,7 @@ OccluderSet build_occluders(const Recipe& recipe, Progress& progress) {
 }
 
 void append(std::string& text, double x, char after) {
-    char buffer[40];
-    text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, x, std::chars_format::general, 17).ptr);
+    append_17_digits(text, x);
     text += after;
 }
 

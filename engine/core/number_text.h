@@ -20,4 +20,10 @@ inline std::string rounded_text(double x) {
     return {buffer, end};
 }
 
+/// For columns of numbers: appends 17 significant digits, which read back as the same double; "inf", "-inf".
+inline void append_17_digits(std::string& text, double x) {
+    char buffer[40];
+    text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, x, std::chars_format::general, 17).ptr);
+}
+
 } // namespace anvil

@@ -1,6 +1,7 @@
 #include "engine/distance/anchor_blend.h"
 
 #include "engine/core/error.h"
+#include "engine/core/number_text.h"
 #include "engine/core/parallel_for.h"
 
 #include <unordered_map>
@@ -63,7 +64,7 @@ double smooth_minimum(std::span<const double> distances, double width) {
 DistanceField anchor_distances(const GeodesicSolver& solver, std::span<const SurfacePoint> anchors,
                                double radius, double width, DistanceMethod method) {
     if (!(width >= 0) || !std::isfinite(width)) {
-        throw InputError("anchors: the blend width is " + std::to_string(width) + "; give a length >= 0");
+        throw InputError("anchors: the blend width is " + number_text(width) + "; give a length >= 0");
     }
     const std::vector<SurfacePoint> places = distinct(anchors);
     // The solver says what is wrong with a radius.

@@ -1,4 +1,5 @@
 #include "engine/core/error.h"
+#include "engine/core/number_text.h"
 #include "engine/distance/distance.h"
 
 namespace anvil {
@@ -19,7 +20,7 @@ double length_at_any_scale(const Vec3& v) {
 DistanceField euclidean_distances(std::span<const Vec3> positions, std::span<const Vec3> sources,
                                   double radius) {
     if (!(radius >= 0)) {
-        throw InputError("distances: the radius is " + std::to_string(radius) + "; give a number >= 0");
+        throw InputError("distances: the radius is " + number_text(radius) + "; give a number >= 0");
     }
     DistanceField field;
     field.method = DistanceMethod::exact;

@@ -100,6 +100,9 @@ bool JsonReader::is_string() const {
 bool JsonReader::is_list() const {
     return value_->is_array();
 }
+bool JsonReader::is_object() const {
+    return value_->is_object();
+}
 bool JsonReader::has(const std::string& key) const {
     return value_->is_object() && value_->contains(key);
 }

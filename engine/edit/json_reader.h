@@ -33,6 +33,7 @@ class JsonReader {
 
     bool is_string() const;
     bool is_list() const;
+    bool is_object() const;
     bool has(const std::string& key) const;
 
     /// This must be an object without other keys than `known`; keys of `later` are refused as "not yet".

@@ -68,6 +68,9 @@ ShapeChoice read_shape(const JsonReader& shape) {
         }
         return choice;
     }
+    if (!shape.is_object()) {
+        shape.fail_found("must be a preset (" + preset_list() + ") or {\"knots\": [...]}");
+    }
     shape.check_keys({"knots"});
     choice.preset.clear();
     choice.knots = read_knots(shape.required("knots"));

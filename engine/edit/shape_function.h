@@ -65,4 +65,7 @@ const std::vector<Knot>& preset_knots(const std::string& name);
 /// All preset names, "smooth" first.
 std::vector<std::string> preset_names();
 
+/// The same for messages: "smooth, linear, ...".
+std::string preset_list();
+
 } // namespace anvil

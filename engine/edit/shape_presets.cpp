@@ -55,15 +55,22 @@ std::vector<std::string> preset_names() {
     return names;
 }
 
+std::string preset_list() {
+    std::string list;
+    for (const Preset& preset : presets()) {
+        list += (list.empty() ? "" : ", ") + preset.first;
+    }
+    return list;
+}
+
 const std::vector<Knot>& preset_knots(const std::string& name) {
-    std::string known;
     for (const Preset& preset : presets()) {
         if (preset.first == name) {
             return preset.second;
         }
-        known += (known.empty() ? "" : ", ") + preset.first;
     }
-    throw InputError("unknown shape \"" + name + "\"; known are " + known + ", or give {\"knots\": [...]}");
+    throw InputError("unknown shape \"" + name + "\"; known are " + preset_list() +
+                     ", or give {\"knots\": [...]}");
 }
 
 } // namespace anvil

@@ -144,7 +144,7 @@ TEST_CASE("A source or radius that cannot be meant is status 2 and shown", "[app
     check({"--from", "1,2"}, "1,2");
     check({"--from", "1,2,nan"}, "1,2,nan");
     check({"--from", "v:0", "--radius", "0"}, "--radius");
-    check({"--from", "v:0", "--radius", "-1"}, "--radius");
+    check({"--from", "v:0", "--radius", "-1"}, "--radius: found -1;");
     check({"--from", "v:0", "--radius", "nan"}, "--radius");
     check({"--from", "v:0", "--radius", "wide"}, "--radius");
     check({"--from", "v:0", "--metric", "taxi"}, "--metric");

@@ -112,6 +112,10 @@ TEST_CASE("rotations need their axis and translations have none") {
 
 TEST_CASE("shape functions are checked where they stand") {
     check_complaint(minimal(R"(, "shape": "smoth")"), {"edits[0].shape", "smoth", "plateau", "crater"});
+    for (const char* bad : {"5", "true", "[\"smooth\"]", "null"}) {
+        check_complaint(minimal(R"(, "shape": )" + std::string(bad)),
+                        {"edits[0].shape", "found", "smooth, linear", "rim", "knots"});
+    }
     check_complaint(minimal(R"(, "shape": {"knots": [{"t": 0, "value": 1}]})"),
                     {"edits[0].shape.knots", "2 to 256"});
     check_complaint(
