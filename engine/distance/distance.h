@@ -60,6 +60,15 @@ class GeodesicSolver {
     DistanceField solve(const DistanceSources& sources, double radius = infinity,
                         DistanceMethod method = DistanceMethod::automatic) const;
 
+    /// A shortest line along the surface: both ends and each edge or vertex between that it meets, as a
+    /// polyline of DistanceSources wants it. Straight to rounding wherever it crosses an edge; where two ways
+    /// are equally long to within the approximate method's error it may be the other one. Empty if no way
+    /// leads there. @throws InputError as solve() does.
+    std::vector<SurfacePoint> shortest_line(const SurfacePoint& from, const SurfacePoint& to) const;
+
+    /// Whether both lie in one triangle or on its rim.
+    bool share_triangle(const SurfacePoint& a, const SurfacePoint& b) const;
+
     /// A march to be continued, without sources yet. `automatic` is approximate here.
     GeodesicMarch march(DistanceMethod method) const;
 

@@ -1,8 +1,10 @@
 #include "engine/core/error.h"
+#include "engine/core/number_text.h"
 #include "engine/distance/distance.h"
 #include "engine/distance/exact_windows.h"
 #include "engine/distance/front_seeds.h"
 #include "engine/distance/segment_seeds.h"
+#include "engine/distance/shortest_line.h"
 #include "engine/distance/workspace_pool.h"
 
 namespace anvil {
@@ -27,7 +29,7 @@ TriangleGraph checked_graph(const Mesh& mesh, std::span<const Vec3> positions) {
 
 void check_radius(double radius) {
     if (!(radius >= 0)) {
-        throw InputError("distances: the radius is " + std::to_string(radius) + "; give a number >= 0");
+        throw InputError("distances: the radius is " + number_text(radius) + "; give a number >= 0");
     }
 }
 
@@ -50,6 +52,17 @@ DistanceField collect(const Workspace& workspace, const TriangleGraph& graph, do
         }
     }
     return field;
+}
+
+SurfacePoint surface_point(const TriangleGraph& graph, std::span<const uint32_t> mesh_triangle,
+                           const PlacedPoint& point) {
+    const uint32_t base = point.vertex == no_index ? point.base : graph.sides_leaving(point.vertex)[0];
+    SurfacePoint result{mesh_triangle[base / 3], Vec3(0), no_index};
+    const int k = static_cast<int>(base % 3);
+    result.barycentric[k] = point.vertex == no_index ? 1 - point.weight_end - point.weight_apex : 1;
+    result.barycentric[(k + 1) % 3] = point.weight_end;
+    result.barycentric[(k + 2) % 3] = point.weight_apex;
+    return result;
 }
 
 } // namespace
@@ -96,6 +109,38 @@ struct GeodesicSolver::State {
         return done;
     }
 
+    /// From `source`, per vertex of the graph and in its units, at least as far as the corners around
+    /// `target` if they can be reached.
+    std::vector<double> distances_as_far_as(const PlacedPoint& target, const SurfacePoint& source) {
+        const SourceParts parts = source_parts(graph, std::span(&source, 1), {}, {});
+        double bound = 8 * graph.longest_side, farthest = infinity;
+        while (bound < infinity) {
+            farthest = farthest_corner(target, in_graph(approximate(parts, bound)));
+            if (farthest < infinity) {
+                break;
+            }
+            bound = bound < 4 ? 4 * bound : infinity; // the whole mesh is about 1 wide
+        }
+        return in_graph(solve(parts, 1.01 * farthest * graph.unit, DistanceMethod::automatic));
+    }
+
+    double farthest_corner(const PlacedPoint& point, const std::vector<double>& distances) const {
+        double farthest = 0;
+        for (const uint32_t side : triangles_with(graph, point)) {
+            farthest = std::max({farthest, distances[graph.from(side)], distances[graph.to(side)],
+                                 distances[graph.apex(side)]});
+        }
+        return farthest;
+    }
+
+    std::vector<double> in_graph(const DistanceField& field) const {
+        std::vector<double> distances(graph.vertex_count(), infinity);
+        for (size_t i = 0; i < field.vertices.size(); ++i) {
+            distances[graph.numbering.new_vertex[field.vertices[i]]] = field.distances[i] / graph.unit;
+        }
+        return distances;
+    }
+
     std::unique_ptr<VertexFronts> borrow_fronts() {
         return front_pool.borrow([&] { return VertexFronts(fans); });
     }
@@ -135,6 +180,36 @@ DistanceField GeodesicSolver::solve(const DistanceSources& sources, double radiu
                                     DistanceMethod method) const {
     return state_->solve(source_parts(state_->graph, sources.points, sources.polylines, sources.triangles),
                          radius, method);
+}
+
+std::vector<SurfacePoint> GeodesicSolver::shortest_line(const SurfacePoint& from,
+                                                        const SurfacePoint& to) const {
+    const TriangleGraph& graph = state_->graph;
+    const PlacedPoint start = placed(graph, from, "line start", 0), end = placed(graph, to, "line end", 0);
+    // Each end's field has its errors elsewhere.
+    SurfaceLine there = anvil::shortest_line(graph, state_->distances_as_far_as(start, to), start, end);
+    SurfaceLine back = anvil::shortest_line(graph, state_->distances_as_far_as(end, from), end, start);
+    if (back.length < there.length) {
+        std::reverse(back.points.begin(), back.points.end());
+        there = std::move(back);
+    }
+    std::vector<uint32_t> mesh_triangle(graph.triangle_count());
+    for (uint32_t t = 0; t < mesh_triangle.size(); ++t) {
+        mesh_triangle[graph.numbering.new_triangle[t]] = t;
+    }
+    std::vector<SurfacePoint> line;
+    for (const PlacedPoint& point : there.points) {
+        line.push_back(surface_point(graph, mesh_triangle, point));
+    }
+    return line;
+}
+
+bool GeodesicSolver::share_triangle(const SurfacePoint& a, const SurfacePoint& b) const {
+    const TriangleGraph& graph = state_->graph;
+    const PlacedPoint first = placed(graph, a, "point", 0), second = placed(graph, b, "point", 1);
+    const std::vector<uint32_t> triangles = triangles_with(graph, first);
+    return std::any_of(triangles.begin(), triangles.end(),
+                       [&](uint32_t side) { return place_in(graph, second, side).has_value(); });
 }
 
 GeodesicMarch GeodesicSolver::march(DistanceMethod method) const {

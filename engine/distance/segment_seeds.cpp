@@ -7,50 +7,6 @@
 namespace anvil {
 namespace {
 
-/// The place of a point in the triangle over `base`, if that triangle holds it.
-std::optional<PlanePoint> place_in(const TriangleGraph& graph, const PlacedPoint& point, uint32_t base) {
-    const std::array<PlanePoint, 3> c = laid_out(graph, base);
-    const std::array<uint32_t, 3> sides = {base, TriangleGraph::next(base), TriangleGraph::previous(base)};
-    const auto mixed = [&](const PlanePoint& a, const PlanePoint& b, double t) {
-        return PlanePoint{(1 - t) * a.x + t * b.x, (1 - t) * a.y + t * b.y};
-    };
-    for (size_t k = 0; k < 3; ++k) {
-        if (point.vertex != no_index) {
-            if (graph.from(sides[k]) == point.vertex) {
-                return c[k];
-            }
-        } else if (point.base == sides[k]) {
-            const PlanePoint on_base =
-                mixed(c[k], c[(k + 1) % 3], point.weight_end / (1 - point.weight_apex));
-            return mixed(on_base, c[(k + 2) % 3], point.weight_apex);
-        }
-    }
-    for (size_t k = 0; k < 3 && point.on_base; ++k) {
-        for (const LikeSide& like : sides_of_edge(graph, point.base)) {
-            if (like.side == sides[k]) {
-                return mixed(c[k], c[(k + 1) % 3], like.same_way ? point.weight_end : 1 - point.weight_end);
-            }
-        }
-    }
-    return std::nullopt;
-}
-
-/// One side of every triangle that holds the point.
-std::vector<uint32_t> triangles_with(const TriangleGraph& graph, const PlacedPoint& point) {
-    std::vector<uint32_t> bases;
-    if (point.vertex != no_index) {
-        const std::span<const uint32_t> sides = graph.sides_leaving(point.vertex);
-        bases.assign(sides.begin(), sides.end());
-    } else if (point.on_base) {
-        for (const LikeSide& side : sides_of_edge(graph, point.base)) {
-            bases.push_back(side.side);
-        }
-    } else {
-        bases.push_back(point.base);
-    }
-    return bases;
-}
-
 /// Closest point of the segment, if it lies between its ends.
 std::optional<PlanePoint> foot(const Segment& segment, const PlanePoint& from) {
     const double dx = segment.to.x - segment.from.x, dy = segment.to.y - segment.from.y;

@@ -5,6 +5,8 @@
 #include "engine/distance/unfold.h"
 #include "engine/mesh/surface_point.h"
 
+#include <optional>
+
 namespace anvil {
 
 /// A vertex (of the graph) that sees source number `label` in a straight line, at `distance` (units of the
@@ -35,6 +37,12 @@ PlacedPoint placed(const TriangleGraph& graph, const SurfacePoint& point, const 
 
 /// Start, end and apex of the triangle over `base`, in its frame.
 std::array<PlanePoint, 3> laid_out(const TriangleGraph& graph, uint32_t base);
+
+/// The place of a point in the triangle over `base`, in its frame, if that triangle holds it.
+std::optional<PlanePoint> place_in(const TriangleGraph& graph, const PlacedPoint& point, uint32_t base);
+
+/// One side of every triangle that holds the point.
+std::vector<uint32_t> triangles_with(const TriangleGraph& graph, const PlacedPoint& point);
 
 /// Seeds at the corners of the triangle over `base` for a source that lies at feet[k] as seen from corner k.
 void seed_corners(const TriangleGraph& graph, uint32_t base, const std::array<PlanePoint, 3>& feet, Seed like,
