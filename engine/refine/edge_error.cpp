@@ -119,26 +119,26 @@ double EdgeMeasure::smooth_bound() const {
 }
 
 EdgeError EdgeMeasure::worst(const EdgeSpan& edge, double enough) {
-    EdgeError best;
     if (!load(edge)) {
-        return best;
+        return {};
     }
     const double bound = smooth_bound();
-    if (bound <= enough) {
-        best.error = bound;
-        return best;
+    if (2 * bound <= enough) {
+        return {2 * bound, 0, no_index};
     }
+    above_ = below_ = {};
     find_breaks();
     for (const Break& b : breaks_) {
-        try_place(b.s, b.level, best);
+        try_place(b.s, b.level);
     }
     double from = 0;
     for (const Break& b : breaks_) {
-        search_piece(from, b.s, enough, best);
+        search_piece(from, b.s, enough);
         from = b.s;
     }
-    search_piece(from, edge.length, enough, best);
-    return best;
+    search_piece(from, edge.length, enough);
+    const Extreme& larger = above_.size > below_.size ? above_ : below_;
+    return {above_.size + below_.size, larger.s / edge.length, larger.level};
 }
 
 void EdgeMeasure::find_breaks() {
@@ -212,26 +212,22 @@ void EdgeMeasure::find_blended_level(uint32_t level) {
     }
 }
 
-void EdgeMeasure::try_place(double s, uint32_t level, EdgeError& best) {
-    const double found = std::abs(error(s));
-    if (found > best.error) {
-        best = {found, s / edge_.length, level};
+void EdgeMeasure::try_place(double s, uint32_t level) {
+    const double found = error(s);
+    Extreme& side = found > 0 ? above_ : below_;
+    if (std::abs(found) > side.size) {
+        side = {std::abs(found), s, level};
     }
 }
 
-void EdgeMeasure::search_piece(double from, double to, double enough, EdgeError& best) {
+void EdgeMeasure::sample_piece(double from, double to) {
     const double width = to - from;
-    if (!(width > 1e-12 * edge_.length)) {
-        return;
-    }
     samples_.assign(1, from);
     for (const double part : piece_samples) {
         samples_.push_back(from + part * width);
     }
-    if (handle_.blend > 0) {
-        for (int i = 1; i < blend_samples; ++i) {
-            samples_.push_back(from + width * i / blend_samples);
-        }
+    for (int i = 1; handle_.blend > 0 && i < blend_samples; ++i) {
+        samples_.push_back(from + width * i / blend_samples);
     }
     samples_.push_back(to);
     for (const EdgeDistance& part : parts_) {
@@ -248,46 +244,62 @@ void EdgeMeasure::search_piece(double from, double to, double enough, EdgeError&
         }
     }
     std::sort(samples_.begin(), samples_.end());
+}
+
+void EdgeMeasure::search_piece(double from, double to, double enough) {
+    if (!(to - from > 1e-12 * edge_.length)) {
+        return;
+    }
+    sample_piece(from, to);
     size_t highest = 0;
-    double value = 0;
+    size_t lowest = 0;
+    double high = 0;
+    double low = 0;
     for (size_t i = 1; i + 1 < samples_.size(); ++i) {
-        const double found = std::abs(error(samples_[i]));
-        if (found > value) {
+        const double found = error(samples_[i]);
+        if (found > high) {
             highest = i;
-            value = found;
+            high = found;
+        } else if (found < low) {
+            lowest = i;
+            low = found;
         }
     }
-    if (value > best.error) {
-        best = {value, samples_[highest] / edge_.length, no_index};
+    if (high > worth_climbing * std::max(0.5 * enough, above_.size)) {
+        try_place(climb(samples_[highest - 1], samples_[highest + 1], 1), no_index);
+    } else if (high > above_.size) {
+        try_place(samples_[highest], no_index);
     }
-    if (value > worth_climbing * std::max(enough, best.error)) {
-        climb(samples_[highest - 1], samples_[highest + 1], best);
+    if (-low > worth_climbing * std::max(0.5 * enough, below_.size)) {
+        try_place(climb(samples_[lowest - 1], samples_[lowest + 1], -1), no_index);
+    } else if (-low > below_.size) {
+        try_place(samples_[lowest], no_index);
     }
 }
 
-/// Golden section: |error| has one maximum between the neighbours of the highest sample.
-void EdgeMeasure::climb(double from, double to, EdgeError& best) {
+/// Golden section: sign * error has one maximum between the neighbours of its highest sample.
+double EdgeMeasure::climb(double from, double to, double sign) {
     constexpr double golden = 0.6180339887498949;
     double left = to - golden * (to - from);
     double right = from + golden * (to - from);
-    double at_left = std::abs(error(left));
-    double at_right = std::abs(error(right));
+    double at_left = sign * error(left);
+    double at_right = sign * error(right);
     for (int step = 0; step < climbing_steps; ++step) {
         if (at_left > at_right) {
             to = right;
             right = left;
             at_right = at_left;
             left = to - golden * (to - from);
-            at_left = std::abs(error(left));
+            at_left = sign * error(left);
         } else {
             from = left;
             left = right;
             at_left = at_right;
             right = from + golden * (to - from);
-            at_right = std::abs(error(right));
+            at_right = sign * error(right);
         }
     }
-    try_place(at_left > at_right ? left : right, no_index, best);
+    return at_left > at_right ? left : right;
 }
 
 const std::vector<double>& EdgeMeasure::crossings(const EdgeSpan& edge, size_t level) {

@@ -13,8 +13,11 @@ struct EdgeSpan {
     double length = 0; ///< > 0
 };
 
-/// `error` is the largest difference; `place` in (0, 1), from a to b, is where, or 0 where `error` is only a
-/// bound.
+/// `error` is the largest difference to one side plus that to the other: where one side is missed, eq. 18.
+/// `place` in (0, 1), from a to b, is where the larger one is, or 0 where `error` is only a bound.
+/// Both sides count because of what comes later: an edge that is missed by 0.9 to both is within a tolerance
+/// of 1, but one close beside it that begins at its first extremum is not, and splits that follow would pile
+/// up against the edge for ever. With the sum every part of an edge within the tolerance is within it too.
 struct EdgeError {
     double error = 0;
     double place = 0;
@@ -26,8 +29,8 @@ class EdgeMeasure {
   public:
     explicit EdgeMeasure(const HandleField& handle);
 
-    /// max over s of |phi(g(s) / R) - linear interpolation of its end values|, exact to a few per cent of
-    /// `enough` or better; where a bound shows that it is at most `enough`, that bound. Candidates: levels of
+    /// Largest phi(g(s) / R) - linear interpolation of its end values, exact to a few per cent of `enough` or
+    /// better; where a bound shows that it is at most `enough`, that bound. Candidates: levels of
     /// the shape, crossings of two anchors' distances, turning points, and extrema between these.
     EdgeError worst(const EdgeSpan& edge, double enough);
 
@@ -40,6 +43,11 @@ class EdgeMeasure {
     struct Break {
         double s;
         uint32_t level;
+    };
+    struct Extreme {
+        double size = 0;
+        double s = 0;
+        uint32_t level = no_index;
     };
     struct Bounds {
         double slope, curvature;
@@ -55,9 +63,10 @@ class EdgeMeasure {
     void find_level(uint32_t level);
     void find_blended_level(uint32_t level);
     void find_crossings();
-    void search_piece(double from, double to, double enough, EdgeError& best);
-    void try_place(double s, uint32_t level, EdgeError& best);
-    void climb(double from, double to, EdgeError& best);
+    void search_piece(double from, double to, double enough);
+    void sample_piece(double from, double to);
+    void try_place(double s, uint32_t level);
+    double climb(double from, double to, double sign);
 
     const HandleField& handle_;
     std::vector<ShapeLevel> levels_;
@@ -69,6 +78,7 @@ class EdgeMeasure {
     std::vector<EdgeDistance> parts_; ///< of the anchors that show on this edge
     std::vector<double> each_;
     std::vector<Break> breaks_;
+    Extreme above_, below_; ///< the largest errors to either side so far
     std::vector<double> samples_;
     std::vector<double> places_;
 };

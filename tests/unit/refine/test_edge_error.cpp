@@ -35,16 +35,20 @@ double sampled_gamma(const HandleField& handle, double length, double s) {
 double sampled_error(const HandleField& handle, double length, double s) {
     const double start = handle.shape(sampled_gamma(handle, length, 0) / handle.radius);
     const double end = handle.shape(sampled_gamma(handle, length, length) / handle.radius);
-    return std::abs(handle.shape(sampled_gamma(handle, length, s) / handle.radius) -
-                    (start + (end - start) * s / length));
+    return handle.shape(sampled_gamma(handle, length, s) / handle.radius) -
+           (start + (end - start) * s / length);
 }
 
+/// Largest error to one side plus that to the other.
 double densest_error(const HandleField& handle, double length) {
-    double most = 0;
+    double above = 0;
+    double below = 0;
     for (int i = 1; i < 4000; ++i) {
-        most = std::max(most, sampled_error(handle, length, length * i / 4000));
+        const double error = sampled_error(handle, length, length * i / 4000);
+        above = std::max(above, error);
+        below = std::min(below, error);
     }
-    return most;
+    return above - below;
 }
 
 /// Distances of both ends of an edge of length 1 from a random point of the plane near it.
@@ -121,13 +125,15 @@ TEST_CASE("The worst place of an edge is that of dense sampling, for every prese
             const EdgeError found = measure.worst({0, 1, 1}, enough);
             INFO(preset << " trial " << trial << " R " << handle.radius << " d "
                         << handle.anchors[0].distances[0] << " " << handle.anchors[0].distances[1]);
-            // An arc seen by six samples may keep a few per cent of the tolerance to itself.
-            CHECK(found.error >= sampled - 0.01 * std::max(enough, sampled));
+            // Arcs below the tolerance are not climbed to their top.
+            CHECK(found.error >= (sampled > enough ? 0.99 : 0.8) * sampled - 1e-12);
             if (found.place > 0) {
                 // Samples 1/4000 apart miss a kink by at most its slopes times that.
-                const double missed = 2 * handle.shape.lipschitz() / handle.radius / 4000;
+                const double missed = 4 * handle.shape.lipschitz() / handle.radius / 4000;
                 CHECK(found.error <= sampled + missed + 1e-12);
-                CHECK(sampled_error(handle, 1, found.place) == Approx(found.error).margin(1e-6));
+                const double at_place = std::abs(sampled_error(handle, 1, found.place));
+                CHECK(at_place >= 0.5 * found.error - 1e-6);
+                CHECK(at_place <= found.error + 1e-6);
             } else {
                 CHECK(found.error <= enough);
             }
@@ -149,9 +155,9 @@ TEST_CASE("Several anchors and blends are measured where they cross") {
             EdgeMeasure measure(handle);
             const EdgeError found = measure.worst({0, 1, 1}, 1e-3);
             INFO(preset << " trial " << trial << " blend " << blend << " found " << found.error);
-            CHECK(found.error >= sampled - 0.02 * std::max(1e-3, sampled));
+            CHECK(found.error >= (sampled > 1e-3 ? 0.98 : 0.8) * sampled - 1e-12);
             if (found.place > 0) {
-                CHECK(sampled_error(handle, 1, found.place) == Approx(found.error).margin(1e-6));
+                CHECK(std::abs(sampled_error(handle, 1, found.place)) >= 0.5 * found.error - 1e-6);
             }
         }
     }

@@ -1,0 +1,125 @@
+#include "engine/mesh/sample_shapes.h"
+#include "tests/support/forging.h"
+#include "tests/support/mesh_checks.h"
+#include "tests/support/refine_checks.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+using namespace anvil;
+using namespace anvil::test;
+
+namespace {
+
+struct Refined {
+    RefinedMesh mesh;
+    std::vector<HandleField> handles;
+    RefineReport report;
+};
+
+Refined refined(const Mesh& mesh, std::vector<HandleField> handles, const RefineOptions& options) {
+    Progress progress;
+    const auto criterion = make_shape_criterion();
+    Refinement result =
+        refine(mesh.triangles, state_of(mesh, std::move(handles)), *criterion, options, progress);
+    return {divided(mesh, result.state.parents, result.faces), std::move(result.state.handles),
+            result.report};
+}
+
+/// A plane of 200 triangles (the sample is a regular grid) whose inner vertices are shaken.
+Mesh coarse_plane() {
+    Mesh mesh = make_sample("plane", 121);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> shake(-0.025, 0.025);
+    for (Vec3& p : mesh.positions) {
+        if (std::max(std::abs(p.x), std::abs(p.y)) < 0.49) {
+            p += Vec3(shake(random), shake(random), 0);
+        }
+    }
+    triangulate(mesh);
+    return mesh;
+}
+
+void check_surface(const Mesh& before, const RefinedMesh& after) {
+    REQUIRE(after.mesh.vertex_count() == before.vertex_count() + after.parents.size());
+    for (const Vec3& p : after.mesh.positions) {
+        REQUIRE(is_finite(p));
+    }
+    for (size_t v = 0; v < before.vertex_count(); ++v) {
+        REQUIRE(after.mesh.positions[v] == before.positions[v]);
+    }
+    const MeshFacts old_facts = facts_of(before);
+    const MeshFacts facts = facts_of(after.mesh);
+    CHECK(facts.euler == old_facts.euler);
+    CHECK(facts.non_manifold_edges == old_facts.non_manifold_edges);
+    CHECK(facts.bow_tie_vertices == old_facts.bow_tie_vertices);
+    CHECK(facts.isolated_vertices == old_facts.isolated_vertices);
+    CHECK(facts.components == old_facts.components);
+    CHECK(count_flipped(before, after) == 0);
+    // Sums of some thousand terms, each rounded to 1e-16 of the total.
+    CHECK(area_of(after.mesh) == Approx(area_of(before)).epsilon(1e-12));
+    CHECK(facts.volume == Approx(old_facts.volume).epsilon(1e-12).margin(1e-14));
+    CHECK(boundary_length(after.mesh) == Approx(boundary_length(before)).epsilon(1e-12));
+}
+
+} // namespace
+
+TEST_CASE("After refinement every edge is within the tolerance, and the surface is what it was") {
+    std::mt19937 random(11);
+    const std::vector<Mesh> meshes{coarse_plane(), make_sample("icosphere", 162), make_sample("torus", 200),
+                                   make_sample("cube", 150), make_sample("hand", 600)};
+    const std::vector<std::string> presets = preset_names();
+    for (int trial = 0; trial < 40; ++trial) {
+        const Mesh& mesh = meshes[trial % meshes.size()];
+        const double size = bounds(mesh).diagonal();
+        std::uniform_int_distribution<uint32_t> vertex(0, static_cast<uint32_t>(mesh.vertex_count() - 1));
+        std::uniform_real_distribution<double> radius(0.05 * size, 0.3 * size);
+        std::vector<HandleField> handles;
+        const int count = 1 + trial % 3;
+        for (int h = 0; h < count; ++h) {
+            const std::vector<uint32_t> anchors = trial % 4 == 3
+                                                      ? std::vector<uint32_t>{vertex(random), vertex(random)}
+                                                      : std::vector<uint32_t>{vertex(random)};
+            handles.push_back(field_from(mesh, anchors, presets[random() % presets.size()], radius(random)));
+        }
+        const double tolerance = trial % 2 == 0 ? 0.02 : 0.05;
+        const Refined result = refined(mesh, handles, {tolerance, 0, 200000});
+        INFO("trial " << trial << " added " << result.report.added << " rounds " << result.report.rounds);
+        CHECK(result.report.stopped_by == RefineStop::tolerance);
+        check_surface(mesh, result.mesh);
+        CHECK(result.report.max_error <= tolerance);
+        // The search for extrema leaves at most a few per cent (test_edge_error).
+        CHECK(sampled_error(result.mesh.mesh, result.handles, 60) <= tolerance * 1.02);
+    }
+}
+
+TEST_CASE("The rims of a cone and of a plateau on coarse meshes are closed chains of edges") {
+    const Mesh plane = coarse_plane();
+    const Mesh sphere = make_sample("icosphere", 162);
+    for (const Mesh* mesh : {&plane, &sphere}) {
+        const uint32_t centre = nearest_vertex(*mesh, {0, 0, 1});
+        const double radius = mesh == &plane ? 0.3 : 0.7;
+        for (const std::string preset : {"linear", "plateau"}) {
+            const Refined result =
+                refined(*mesh, {field_from(*mesh, {centre}, preset, radius)}, {0.01, 0, 100000});
+            check_surface(*mesh, result.mesh);
+            for (const double t : preset == "linear" ? std::vector<double>{1} : std::vector<double>{0.9, 1}) {
+                const Rim rim = rim_of(result.mesh.mesh, result.handles[0], t * radius, 1e-6 * radius);
+                INFO(preset << " at " << t << ", edges " << rim.edges);
+                CHECK(rim.edges > 12);
+                CHECK(rim.odd_vertices == 0);
+                CHECK(rim.crossed_triangles == 0);
+                CHECK(rim.farthest <= 1e-6 * radius);
+            }
+            if (mesh == &plane) {
+                // On the plane the distance is that through space.
+                for (uint32_t v = 0; v < result.mesh.mesh.vertex_count(); ++v) {
+                    const double d = result.handles[0].distance(v);
+                    const double straight =
+                        glm::distance(result.mesh.mesh.positions[v], plane.positions[centre]);
+                    CHECK((std::isfinite(d) ? std::abs(d - straight) : 0) <= 1e-9 * radius);
+                }
+            }
+        }
+    }
+}
