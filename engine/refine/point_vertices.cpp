@@ -137,11 +137,13 @@ class PointInserter {
 
 PointVertices make_vertices(const Mesh& mesh, std::span<const SurfacePoint> points) {
     std::vector<SurfacePoint> places;
+    places.reserve(points.size());
     for (const SurfacePoint& point : points) {
         places.push_back(snapped(point));
     }
     PointInserter inserter(mesh, places);
     std::vector<uint32_t> vertices;
+    vertices.reserve(places.size());
     for (const SurfacePoint& place : places) {
         vertices.push_back(inserter.insert(place));
     }
