@@ -46,6 +46,7 @@ layout(binding = 13) uniform sampler3D volume_4;
 layout(binding = 14) uniform sampler3D volume_5;
 layout(binding = 15) uniform sampler3D volume_6;
 layout(binding = 16) uniform sampler3D volume_7;
+layout(binding = 17, scalar) readonly buffer Poses { Pose poses[]; };
 
 // DeformVariant of engine/gpu/deform_pipeline.h, in this order.
 layout(constant_id = 0) const uint has_occluders = 1u;
@@ -55,6 +56,7 @@ layout(constant_id = 3) const uint motion = 0u;
 layout(constant_id = 4) const uint steps = 0u;
 layout(constant_id = 5) const uint one_sample = 0u;
 layout(constant_id = 6) const uint shape_kinds = 0u; // bit SHAPE_...: there is a node of this kind
+layout(constant_id = 12) const uint moving = 0u;
 
 /// Where there are few, by selection: an index that is not a constant would put them all into memory.
 Occluder occluder_at(uint k) {
@@ -102,6 +104,7 @@ void prepare() {
     params = pushed;
     params.occluder_count = has_occluders != 0u ? params.occluder_count : 0u;
     params.paper = paper;
+    params.moving = moving;
     params.motion = motion;
     params.steps = steps;
     params.sample_count = one_sample != 0u ? 1u : params.sample_count;

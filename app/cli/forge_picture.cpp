@@ -1,7 +1,7 @@
 #include "app/cli/forge_picture.h"
 
 #include "engine/gpu/offscreen_renderer.h"
-#include "engine/occluder/shape_nodes.h"
+#include "engine/occluder/occluder_motion.h"
 #include "engine/occluder/solid.h"
 
 #include <list>
@@ -40,9 +40,8 @@ Mesh plane_patch(const PlaneShape& plane, const Vec3& near, double half) {
     return mesh;
 }
 
-DrawnSurface occluder_surface(const Occluder& occluder, const Transform& pose, const Box& scene,
+DrawnSurface occluder_surface(const Occluder& occluder, const Placement& place, const Box& scene,
                               const std::filesystem::path& folder) {
-    const Placement place = placement(pose);
     Mesh mesh;
     if (const auto* plane = std::get_if<PlaneShape>(&occluder.shape.solid)) {
         const Vec3 arm = (scene.centre() - place.origin) / place.scale;
@@ -58,15 +57,23 @@ DrawnSurface occluder_surface(const Occluder& occluder, const Transform& pose, c
     return {relative(mesh.positions, scene.centre()), mesh.triangles};
 }
 
-/// The occluders as the last edit that uses any places them.
-std::vector<OccluderUse> drawn_occluders(const Recipe& recipe) {
-    for (size_t i = recipe.edits.size(); i-- > 0;) {
-        auto uses = occluders_of(recipe, recipe.edits[i]);
-        if (!uses.empty()) {
-            return uses;
+struct DrawnOccluder {
+    std::string name;
+    Placement place;
+};
+
+/// The occluders as the last edit that uses any leaves them.
+std::vector<DrawnOccluder> drawn_occluders(const Recipe& recipe) {
+    std::vector<DrawnOccluder> drawn;
+    for (size_t i = recipe.edits.size(); drawn.empty() && i-- > 0;) {
+        const Edit& edit = recipe.edits[i];
+        for (const OccluderUse& use : occluders_of(recipe, edit)) {
+            const auto poses = timed_poses(use);
+            drawn.push_back(
+                {use.name, poses.empty() ? placement(*use.transform) : pose_at(poses, edit.amount)});
         }
     }
-    return {};
+    return drawn;
 }
 
 Box box_of(std::span<const Vec3> positions) {
@@ -84,9 +91,9 @@ Picture forge_picture(Device& device, const Mesh& mesh, const Recipe& recipe, co
     progress.report("picture", 0);
     const Box scene = box_of(result.positions);
     std::list<DrawnSurface> occluders;
-    for (const OccluderUse& use : drawn_occluders(recipe)) {
+    for (const DrawnOccluder& drawn : drawn_occluders(recipe)) {
         occluders.push_back(
-            occluder_surface(*find_occluder(recipe, use.name), *use.transform, scene, recipe_folder(recipe)));
+            occluder_surface(*find_occluder(recipe, drawn.name), drawn.place, scene, recipe_folder(recipe)));
     }
     const auto positions = relative(result.positions, scene.centre());
     std::vector<PictureSurface> surfaces{{positions, mesh.triangles, result.weights}};

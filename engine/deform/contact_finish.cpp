@@ -1,6 +1,7 @@
 #include "engine/deform/contact_finish.h"
 
 #include "engine/core/parallel_for.h"
+#include "engine/occluder/occluder_motion.h"
 
 #include <algorithm>
 #include <atomic>
@@ -58,7 +59,25 @@ Vec3 retreat(const OccluderSet& set, const Vec3& start, const Vec3& end) {
     return start + out * (end - start);
 }
 
-Vec3 outside(const OccluderSet& set, const Vec3& start, const Vec3& end, double rounding) {
+/// The start as the occluder nearest to the end sees it.
+Vec3 carried_start(const OccluderSet& before, const OccluderSet& set, const Vec3& start, const Vec3& end) {
+    if (!before.moves()) {
+        return start;
+    }
+    size_t nearest = 0;
+    double least = infinity;
+    for (size_t k = 0; k < set.occluders.size(); ++k) {
+        const double distance = exact_distance(set, k, end).distance;
+        if (distance < least) {
+            least = distance;
+            nearest = k;
+        }
+    }
+    return carried(before.occluders[nearest], set.occluders[nearest], start);
+}
+
+Vec3 outside(const OccluderSet& before, const OccluderSet& set, const Vec3& start, const Vec3& end,
+             double rounding) {
     Vec3 p = end;
     for (int i = 0; i < 16; ++i) {
         const SignedDistance s = exact_distance(set, p);
@@ -67,7 +86,7 @@ Vec3 outside(const OccluderSet& set, const Vec3& start, const Vec3& end, double 
         }
         p -= s.distance * s.normal;
     }
-    return retreat(set, start, end);
+    return retreat(set, carried_start(before, set, start, end), end);
 }
 
 struct Dip {
@@ -101,12 +120,14 @@ Dip dip(const OccluderSet& set, const Vec3& a, const Vec3& b, const Vec3& c) {
 
 size_t finish_contact(const OccluderSet& set, std::span<const Vec3> starts, const std::vector<bool>& inside,
                       std::span<Vec3> ends) {
-    const double rounding = touching(set);
+    const OccluderSet last = at_end(set);
+    const double rounding = touching(last);
     std::atomic<size_t> moved{0};
     parallel_for(ends.size(), 512, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
-            if (!inside[i] && ends[i] != starts[i] && exact_distance(set, ends[i]).distance < -rounding) {
-                ends[i] = outside(set, starts[i], ends[i], rounding);
+            if (!inside[i] && (set.moves() || ends[i] != starts[i]) &&
+                exact_distance(last, ends[i]).distance < -rounding) {
+                ends[i] = outside(set, last, starts[i], ends[i], rounding);
                 ++moved;
             }
         }

@@ -24,13 +24,16 @@ struct ContactReport {
     size_t contact_vertices = 0;
 };
 
-/// Moves each point of `ends` that is inside an occluder, although its `start` was outside, to the closest
-/// point of the surface; where that fails (wedges), back along the segment to its start until it is outside.
-/// `inside[i]`: the point started inside and is left alone; so is one that did not move. All relative to the
-/// local origin.
+/// Moves each point of `ends` that is inside an occluder at the end of the edit, although its `start` was
+/// outside, to the closest point of the surface; where that fails (wedges), back along the segment to its
+/// start until it is outside, the start carried along with the occluder if that moved. `inside[i]`: the point
+/// started inside and is left alone; so is one that did not move while the occluders stood still. All
+/// relative to the local origin.
 /// @return how many were moved.
 size_t finish_contact(const OccluderSet& set, std::span<const Vec3> starts, const std::vector<bool>& inside,
                       std::span<Vec3> ends);
+
+// What follows takes the set as it stands at the end.
 
 /// Fills penetrating_vertices, max_penetration and contact_vertices of the points as they are.
 void measure_vertices(const OccluderSet& set, std::span<const Vec3> ends, const std::vector<bool>& inside,

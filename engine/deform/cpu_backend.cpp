@@ -19,7 +19,9 @@ class CpuSession final : public DeformSession {
         check_sizes(input_, motion);
         results_.resize(input_.points.size());
         ready_ = true;
+        const std::vector<kernel::f64::Pose> poses = kernel_poses(input_, motion);
         kernel::f64::DeformKernel prototype = kernel(motion);
+        prototype.poses = poses.data();
         parallel_for(results_.size(), 256, [&](size_t begin, size_t end) {
             kernel::f64::DeformKernel kernel = prototype;
             for (size_t i = begin; i < end; ++i) {

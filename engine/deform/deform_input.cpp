@@ -3,6 +3,9 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel_for.h"
 #include "engine/occluder/occluder_kernel.h"
+#include "engine/occluder/occluder_motion.h"
+
+#include <algorithm>
 
 namespace anvil {
 
@@ -32,6 +35,11 @@ double start_distance(const OccluderSet& set, kernel::f64::OccluderKernel& kerne
     return deepest < 0 ? deepest : best;
 }
 
+size_t sample_count(const DeformInput& input, const DeformMotion& motion) {
+    return input.handle_count == 0 ? std::max<size_t>(motion.times.size(), 1)
+                                   : motion.targets.size() / input.handle_count;
+}
+
 } // namespace
 
 void find_start_distances(DeformInput& input) {
@@ -53,14 +61,33 @@ void find_start_distances(DeformInput& input) {
 void check_sizes(const DeformInput& input, const DeformMotion& motion) {
     const size_t n = input.points.size();
     const size_t k = input.handle_count;
-    const bool fits =
-        input.fields.size() == k * n && input.shapes.size() == k &&
-        (input.occluders.empty() || input.start_distances.size() == n) &&
-        (k == 0 ? motion.targets.empty() : motion.targets.size() % k == 0 && !motion.targets.empty()) &&
-        motion.steps > 0;
+    const bool fits = input.fields.size() == k * n && input.shapes.size() == k &&
+                      (input.occluders.empty() || input.start_distances.size() == n) &&
+                      fits_handles(motion, k);
     if (!fits) {
         throw InternalError("the deformation's input and motion do not fit each other");
     }
+}
+
+bool fits_handles(const DeformMotion& motion, size_t handle_count) {
+    const size_t samples = motion.times.size();
+    const size_t entries = motion.targets.size();
+    if (handle_count == 0) {
+        return entries == 0 && motion.steps > 0;
+    }
+    return entries > 0 && entries % handle_count == 0 &&
+           (samples == 0 || entries == samples * handle_count) && motion.steps > 0;
+}
+
+std::vector<kernel::f64::Pose> kernel_poses(const DeformInput& input, const DeformMotion& motion) {
+    if (!motion.times.empty()) {
+        return pose_table(input.occluders, motion.times);
+    }
+    std::vector<double> times(sample_count(input, motion));
+    for (size_t s = 0; s < times.size(); ++s) {
+        times[s] = static_cast<double>(s + 1) / static_cast<double>(times.size());
+    }
+    return pose_table(input.occluders, times);
 }
 
 kernel::f64::KernelParams kernel_params(const DeformInput& input, const DeformMotion& motion) {
@@ -69,13 +96,13 @@ kernel::f64::KernelParams kernel_params(const DeformInput& input, const DeformMo
     params.point_count = static_cast<uint32_t>(input.points.size());
     params.field_stride = params.point_count;
     params.handle_count = static_cast<uint32_t>(input.handle_count);
-    params.sample_count =
-        input.handle_count == 0 ? 1 : static_cast<uint32_t>(motion.targets.size() / input.handle_count);
+    params.sample_count = static_cast<uint32_t>(sample_count(input, motion));
     params.occluder_count = static_cast<uint32_t>(input.occluders.occluders.size());
     params.motion = motion.kind == MotionKind::straight ? k::MOTION_STRAIGHT
                     : motion.kind == MotionKind::arc    ? k::MOTION_ARC
                                                         : k::MOTION_CHORD;
     params.paper = input.occluders.paper ? 1 : 0;
+    params.moving = input.occluders.moves() ? 1 : 0;
     params.steps = motion.fixed_steps ? k::STEPS_FIXED : k::STEPS_ADAPTIVE;
     params.step_limit = motion.steps;
     params.axis_origin = motion.axis_origin;

@@ -36,8 +36,8 @@ struct DeformMotion {
     MotionKind kind = MotionKind::straight;
     Vec3 axis_origin{0};          ///< relative to the local origin
     Vec3 axis_direction{0, 1, 0}; ///< unit
-    std::vector<Vec3> targets;
-    std::vector<double> times; ///< S, ascending to 1: when each sample is reached; empty: equal parts
+    std::vector<Vec3> targets;    ///< empty without handles: then S is the number of `times`, at least 1
+    std::vector<double> times;    ///< S, ascending to 1: when each sample is reached; empty: equal parts
     bool fixed_steps =
         false; ///< exactly `steps` equal steps a path segment, else adaptive with at most `steps`
     uint32_t steps = 4096;
@@ -54,6 +54,12 @@ struct PointResult {
 
 /// @throws InternalError if sizes of input and motion do not fit each other.
 void check_sizes(const DeformInput& input, const DeformMotion& motion);
+
+/// Whether a motion is one of `handle_count` handles.
+bool fits_handles(const DeformMotion& motion, size_t handle_count);
+
+/// The occluders' poses at the motion's samples; empty if none moves. See pose_table().
+std::vector<kernel::f64::Pose> kernel_poses(const DeformInput& input, const DeformMotion& motion);
 
 /// The kernels' parameters of a motion over `point_count` points.
 kernel::f64::KernelParams kernel_params(const DeformInput& input, const DeformMotion& motion);

@@ -15,6 +15,7 @@ struct DeformKernel : OccluderKernel {
     const real* fields = nullptr;
     const CurveRange* shapes = nullptr;
     const real3* targets = nullptr;
+    const Pose* poses = nullptr;
     const real* start_distances = nullptr;
 
     const Occluder& occluder_at(uint k) const { return occluders[k]; }

@@ -9,8 +9,9 @@ static_assert(sizeof(kernel::f32::ShapeSegment) == 20);
 static_assert(sizeof(kernel::f32::CurveRange) == 8);
 static_assert(sizeof(kernel::f32::ShapeNode) == 76 && offsetof(kernel::f32::ShapeNode, scale) == 72);
 static_assert(sizeof(kernel::f32::Occluder) == 92 && offsetof(kernel::f32::Occluder, curve) == 84);
-static_assert(sizeof(kernel::f32::KernelParams) == 64 &&
-              offsetof(kernel::f32::KernelParams, path_epsilon) == 60);
+static_assert(sizeof(kernel::f32::Pose) == 88 && offsetof(kernel::f32::Pose, at) == 84);
+static_assert(sizeof(kernel::f32::KernelParams) == 68 &&
+              offsetof(kernel::f32::KernelParams, path_epsilon) == 64);
 static_assert(sizeof(kernel::f32::VertexResult) == 24);
 
 float narrowed(double x) {
@@ -48,6 +49,12 @@ kernel::f32::Occluder narrowed(const kernel::f64::Occluder& o) {
             narrowed(o.width),  narrowed(o.curve)};
 }
 
+kernel::f32::Pose narrowed(const kernel::f64::Pose& p) {
+    return {narrowed(p.axis_x), narrowed(p.axis_y),    narrowed(p.axis_z), narrowed(p.origin),
+            narrowed(p.move),   narrowed(p.turn_axis), narrowed(p.turn),   narrowed(p.ratio),
+            narrowed(p.growth), narrowed(p.at)};
+}
+
 kernel::f32::KernelParams narrowed(const kernel::f64::KernelParams& p) {
     return {p.point_count,
             p.field_stride,
@@ -58,6 +65,7 @@ kernel::f32::KernelParams narrowed(const kernel::f64::KernelParams& p) {
             p.steps,
             p.step_limit,
             p.paper,
+            p.moving,
             narrowed(p.axis_origin),
             narrowed(p.axis_direction),
             narrowed(p.path_epsilon)};

@@ -13,6 +13,7 @@ kernel::f32::ShapeSegment narrowed(const kernel::f64::ShapeSegment& segment);
 kernel::f32::CurveRange narrowed(const kernel::f64::CurveRange& range);
 kernel::f32::ShapeNode narrowed(const kernel::f64::ShapeNode& node);
 kernel::f32::Occluder narrowed(const kernel::f64::Occluder& occluder);
+kernel::f32::Pose narrowed(const kernel::f64::Pose& pose);
 kernel::f32::KernelParams narrowed(const kernel::f64::KernelParams& params);
 glm::vec3 narrowed(const Vec3& v);
 /// Infinities become +-1e30: kernels compute with them.

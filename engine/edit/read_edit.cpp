@@ -91,6 +91,10 @@ Handle read_handle(const JsonReader& handle, EditKind kind) {
 Anchors read_anchors(const JsonReader& anchors, size_t handle_count) {
     anchors.check_keys({"handle", "at", "blend"});
     Anchors result;
+    if (handle_count == 0 && anchors.has("handle")) {
+        anchors.required("handle").fail(
+            "the edit has no handles: its anchors say where the hammer may act; remove this");
+    }
     if (handle_count > 1 || anchors.has("handle")) {
         result.handle = anchors.required("handle").whole(0, static_cast<uint32_t>(handle_count - 1));
     }
@@ -109,12 +113,12 @@ Anchors read_anchors(const JsonReader& anchors, size_t handle_count) {
 }
 
 void read_all_anchors(const JsonReader& list, Edit& edit) {
-    std::vector<bool> seen(edit.handles.size(), false);
+    std::vector<bool> seen(std::max<size_t>(edit.handles.size(), 1), false);
     for (const JsonReader& item : list.items()) {
         edit.anchors.push_back(read_anchors(item, edit.handles.size()));
         const uint32_t handle = edit.anchors.back().handle;
         if (seen[handle]) {
-            item.fail("handle " + std::to_string(handle) +
+            item.fail((edit.handles.empty() ? "the edit" : "handle " + std::to_string(handle)) +
                       " has anchors already; list all points in one \"at\"");
         }
         seen[handle] = true;
@@ -157,9 +161,6 @@ void read_handles(const JsonReader& list, Edit& edit) {
     for (const JsonReader& item : list.items()) {
         edit.handles.push_back(read_handle(item, edit.kind));
     }
-    if (edit.handles.empty()) {
-        list.fail_found("an edit needs at least one handle");
-    }
 }
 
 void read_distances(const JsonReader& edit, Edit& result) {
@@ -201,6 +202,33 @@ void read_options(const JsonReader& edit, Edit& result) {
     }
 }
 
+bool has_hammer(const Edit& edit) {
+    return edit.occluders && std::any_of(edit.occluders->begin(), edit.occluders->end(),
+                                         [](const OccluderUse& use) { return !use.motion.empty(); });
+}
+
+/// Without handles it is the occluders that move, and nothing has a shape function.
+void check_handleless(const JsonReader& edit, const Edit& parsed) {
+    if (!has_hammer(parsed)) {
+        edit.fail(
+            R"(an edit needs at least one handle, or an occluder that moves: "occluders": [{"name": ..., )"
+            R"("motion": [{"at": 0, ...}, {"at": 1, ...}]}])");
+    }
+    if (parsed.kind == EditKind::rotate) {
+        edit.required("kind").fail_found("without handles nothing turns; use \"translate\"");
+    }
+    for (const char* key : {"shape", "least_squares"}) {
+        if (edit.has(key)) {
+            edit.required(key).fail("belongs to handles, and the edit has none; remove it");
+        }
+    }
+    if (parsed.radius && parsed.anchors.empty()) {
+        edit.required("radius").fail("without handles the radius is that of \"anchors\", and the edit has "
+                                     "none; give them, or leave the "
+                                     "radius out so that the whole mesh takes part");
+    }
+}
+
 } // namespace
 
 Edit read_edit(const JsonReader& edit) {
@@ -215,9 +243,14 @@ Edit read_edit(const JsonReader& edit) {
     } else {
         refuse_rotation_keys(edit);
     }
-    read_handles(edit.required("handles"), result);
+    if (const auto handles = edit.find("handles")) {
+        read_handles(*handles, result);
+    }
     read_distances(edit, result);
     read_options(edit, result);
+    if (result.handles.empty()) {
+        check_handleless(edit, result);
+    }
     return result;
 }
 

@@ -58,8 +58,16 @@ MeshShape read_mesh_shape(const JsonReader& file) {
     return {file.text()};
 }
 
+void refuse_motion(const JsonReader& occluder) {
+    if (occluder.has("motion")) {
+        occluder.required("motion").fail("an occluder moves during an edit: move this into the edit's own "
+                                         "\"occluders\": [{\"name\": ..., \"motion\": [...]}]");
+    }
+}
+
 CsgPart read_part(const JsonReader& part) {
-    part.check_keys({"name", "shape", "transform", "influence", "field"}, {"motion"});
+    part.check_keys({"name", "shape", "transform", "influence", "field", "motion"});
+    refuse_motion(part);
     for (const char* key : {"influence", "field"}) {
         if (part.has(key)) {
             part.fail(std::string("\"") + key + "\" belongs to the whole occluder; remove it from this part");
@@ -194,6 +202,10 @@ std::string read_name(const JsonReader& owner) {
 
 Transform read_transform(const JsonReader& transform) {
     transform.check_keys({"translate", "rotate", "scale"});
+    return read_pose_keys(transform);
+}
+
+Transform read_pose_keys(const JsonReader& transform) {
     Transform result;
     if (const auto translate = transform.find("translate")) {
         result.translate = translate->vector();
@@ -252,7 +264,8 @@ OccluderShape read_occluder_shape(const JsonReader& shape) {
 }
 
 Occluder read_occluder(const JsonReader& occluder) {
-    occluder.check_keys({"name", "shape", "field", "transform", "influence"}, {"motion"});
+    occluder.check_keys({"name", "shape", "field", "transform", "influence", "motion"});
+    refuse_motion(occluder);
     Occluder result;
     result.name = read_name(occluder);
     result.shape = read_occluder_shape(occluder.required("shape"));
@@ -272,13 +285,16 @@ OccluderUse read_occluder_use(const JsonReader& use) {
         result.name = use.text();
         return result;
     }
-    use.check_keys({"name", "transform", "influence"}, {"motion"});
+    use.check_keys({"name", "transform", "influence", "motion"});
     result.name = read_name(use);
     if (const auto transform = use.find("transform")) {
         result.transform = read_transform(*transform);
     }
     if (const auto influence = use.find("influence")) {
         result.influence = read_influence(*influence);
+    }
+    if (const auto motion = use.find("motion")) {
+        result.motion = read_motion(*motion);
     }
     return result;
 }

@@ -64,7 +64,7 @@ std::vector<OccluderUse> occluders_of(const Recipe& recipe, const Edit& edit) {
     std::vector<OccluderUse> uses;
     if (!edit.occluders) {
         for (const Occluder& occluder : recipe.occluders) {
-            uses.push_back({occluder.name, occluder.transform, occluder.influence});
+            uses.push_back({occluder.name, occluder.transform, occluder.influence, {}});
         }
         return uses;
     }
@@ -74,7 +74,7 @@ std::vector<OccluderUse> occluders_of(const Recipe& recipe, const Edit& edit) {
             throw InternalError("an edit uses the unknown occluder \"" + use.name + "\"");
         }
         uses.push_back({use.name, use.transform.value_or(occluder->transform),
-                        use.influence.value_or(occluder->influence)});
+                        use.influence.value_or(occluder->influence), use.motion});
     }
     return uses;
 }

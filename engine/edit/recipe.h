@@ -200,11 +200,29 @@ struct Occluder {
     bool operator==(const Occluder&) const = default;
 };
 
+/// Where a moving occluder is at a time of the edit; what is absent is that of its transform.
+struct MotionPose {
+    struct Turn {
+        Vec3 axis{0, 1, 0}; ///< as Transform::axis
+        double degrees = 0;
+
+        bool operator==(const Turn&) const = default;
+    };
+
+    double at = 0; ///< in [0, 1]
+    std::optional<Vec3> translate;
+    std::optional<Turn> rotate;
+    std::optional<double> scale;
+
+    bool operator==(const MotionPose&) const = default;
+};
+
 /// An occluder in one edit; what is given replaces the occluder's own as a whole.
 struct OccluderUse {
     std::string name;
     std::optional<Transform> transform;
     std::optional<Influence> influence;
+    std::vector<MotionPose> motion; ///< empty, or two and more with ascending times: a hammer
 
     bool operator==(const OccluderUse&) const = default;
 };
@@ -219,7 +237,7 @@ struct Steps {
 
 struct Edit {
     EditKind kind = EditKind::translate;
-    std::vector<Handle> handles; ///< at least one
+    std::vector<Handle> handles; ///< at least one, or none where an occluder moves
     std::vector<Anchors> anchors;
     std::vector<SurfaceAddress> pinned;
     Axis axis;                ///< rotations

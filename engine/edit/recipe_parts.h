@@ -14,10 +14,13 @@ ShapeChoice read_shape(const JsonReader& shape);
 SurfaceAddress read_address(const JsonReader& point);
 std::vector<SurfaceAddress> read_addresses(const JsonReader& list);
 Transform read_transform(const JsonReader& transform);
+/// translate, rotate and scale, beside whatever other keys.
+Transform read_pose_keys(const JsonReader& transform);
 Influence read_influence(const JsonReader& influence);
 OccluderShape read_occluder_shape(const JsonReader& shape);
 Occluder read_occluder(const JsonReader& occluder);
 OccluderUse read_occluder_use(const JsonReader& use);
+std::vector<MotionPose> read_motion(const JsonReader& list);
 Edit read_edit(const JsonReader& edit);
 
 nlohmann::ordered_json written(const Vec3& v);
@@ -28,6 +31,7 @@ nlohmann::ordered_json written(const Transform& transform);
 nlohmann::ordered_json written(const Influence& influence);
 nlohmann::ordered_json written(const OccluderShape& shape);
 nlohmann::ordered_json written(const Occluder& occluder);
+nlohmann::ordered_json written(const MotionPose& pose);
 nlohmann::ordered_json written(const OccluderUse& use);
 nlohmann::ordered_json written(const Handle& handle);
 nlohmann::ordered_json written(const Anchors& anchors);

@@ -86,8 +86,22 @@ Json written(const Occluder& occluder) {
     return result;
 }
 
+Json written(const MotionPose& pose) {
+    Json result{{"at", pose.at}};
+    if (pose.translate) {
+        result["translate"] = written(*pose.translate);
+    }
+    if (pose.rotate) {
+        result["rotate"] = {{"axis", written(pose.rotate->axis)}, {"degrees", pose.rotate->degrees}};
+    }
+    if (pose.scale) {
+        result["scale"] = *pose.scale;
+    }
+    return result;
+}
+
 Json written(const OccluderUse& use) {
-    if (!use.transform && !use.influence) {
+    if (!use.transform && !use.influence && use.motion.empty()) {
         return use.name;
     }
     Json result{{"name", use.name}};
@@ -96,6 +110,9 @@ Json written(const OccluderUse& use) {
     }
     if (use.influence) {
         result["influence"] = written(*use.influence);
+    }
+    for (const MotionPose& pose : use.motion) {
+        result["motion"].push_back(written(pose));
     }
     return result;
 }

@@ -34,13 +34,18 @@ const char* name_of(DistanceMethod method) {
 void write_distances(const Edit& edit, Json& result) {
     if (!edit.anchors.empty()) {
         result["anchors"] = list_of(edit.anchors);
+        if (edit.handles.empty()) {
+            result["anchors"][0].erase("handle");
+        }
     }
     result["metric"] = name_of(edit.metric);
     result["method"] = name_of(edit.method);
     if (edit.radius) {
         result["radius"] = *edit.radius;
     }
-    result["shape"] = written(edit.shape);
+    if (!edit.handles.empty()) {
+        result["shape"] = written(edit.shape);
+    }
 }
 
 void write_options(const Edit& edit, Json& result) {

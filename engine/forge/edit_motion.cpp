@@ -3,6 +3,7 @@
 #include "engine/core/error.h"
 #include "engine/edit/handle_path.h"
 #include "engine/edit/rotation.h"
+#include "engine/occluder/occluder_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,10 +37,11 @@ HandlePath path_of(const Handle& handle, const Vec3& start) {
     return HandlePath({&by, 1});
 }
 
-/// The times at which the motion changes its direction, and the end. Equal steps are `count` segments, so
-/// that all of them are equal, whatever corners the path has.
-std::vector<double> sample_times(const std::vector<HandlePath>& paths, const Steps& steps) {
-    std::vector<double> times{1};
+/// The times at which an occluder (`times`) or a path changes its direction, and the end. Equal steps are
+/// `count` segments, so that all of them are equal, whatever corners the path has.
+std::vector<double> sample_times(const std::vector<HandlePath>& paths, std::vector<double> times,
+                                 const Steps& steps) {
+    times.push_back(1);
     for (const HandlePath& path : paths) {
         const std::vector<double> corners = path.corners();
         times.insert(times.end(), corners.begin(), corners.end());
@@ -158,14 +160,15 @@ std::vector<std::string> handle_names(const Edit& edit, const std::string& place
 }
 
 EditMotion translation(const Edit& edit, const EditRegion& region, const std::vector<double>& a,
-                       const std::vector<std::string>& names, const Steps& steps, Log& log) {
+                       const std::vector<std::string>& names, const std::vector<double>& poses,
+                       const Steps& steps, Log& log) {
     EditMotion result;
     const size_t k = edit.handles.size();
     std::vector<HandlePath> paths;
     for (size_t i = 0; i < k; ++i) {
         paths.push_back(path_of(edit.handles[i], region.handle_positions[i]));
     }
-    const std::vector<double> times = sample_times(paths, steps);
+    const std::vector<double> times = sample_times(paths, poses, steps);
     const auto targets = displacement_targets(edit, paths, times);
     result.solution = solve_constraints(a, targets, 3 * times.size());
     check_targets(result.solution, targets, edit.least_squares, names, log);
@@ -183,8 +186,8 @@ EditMotion translation(const Edit& edit, const EditRegion& region, const std::ve
 }
 
 EditMotion rotation(const Edit& edit, const EditRegion& region, std::span<const Vec3> positions,
-                    const std::vector<double>& a, const std::vector<std::string>& names, const Vec3& origin,
-                    Log& log) {
+                    const std::vector<double>& a, const std::vector<std::string>& names,
+                    const std::vector<double>& times, const Vec3& origin, Log& log) {
     EditMotion result;
     const Rotation turn(edit.axis.origin, edit.axis.direction);
     const auto targets = angle_targets(edit, region, turn);
@@ -197,8 +200,13 @@ EditMotion rotation(const Edit& edit, const EditRegion& region, std::span<const 
         const Vec3 end = turned_handle(region, positions, turn, result.solution.x, i);
         result.target_errors.push_back(
             glm::length(end - turn.turned(region.handle_positions[i], targets[i])));
-        result.motion.targets.emplace_back(result.solution.x[i], 0, 0);
     }
+    for (const double t : times) {
+        for (const double angle : result.solution.x) {
+            result.motion.targets.emplace_back(t * angle, 0, 0);
+        }
+    }
+    result.motion.times = times;
     result.motion.kind = edit.sweep == Sweep::arc ? MotionKind::arc : MotionKind::chord;
     result.motion.axis_origin = turn.origin - origin;
     result.motion.axis_direction = turn.direction;
@@ -208,13 +216,15 @@ EditMotion rotation(const Edit& edit, const EditRegion& region, std::span<const 
 } // namespace
 
 EditMotion find_motion(const Edit& edit, const EditRegion& region, std::span<const Vec3> positions,
-                       const Vec3& origin, const std::string& place, bool paper, Log& log) {
+                       const Vec3& origin, const std::string& place, const OccluderSet& occluders, Log& log) {
     const auto a = system_matrix(region);
     const auto names = handle_names(edit, place);
-    const Steps steps = edit.steps.value_or(paper ? Steps{false, paper_steps} : Steps{});
-    EditMotion result = edit.kind == EditKind::translate
-                            ? translation(edit, region, a, names, steps, log)
-                            : rotation(edit, region, positions, a, names, origin, log);
+    const Steps steps = edit.steps.value_or(occluders.paper ? Steps{false, paper_steps} : Steps{});
+    const std::vector<double> poses = pose_times(occluders);
+    EditMotion result =
+        edit.kind == EditKind::translate
+            ? translation(edit, region, a, names, poses, steps, log)
+            : rotation(edit, region, positions, a, names, sample_times({}, poses, steps), origin, log);
     set_steps(steps, result.motion);
     return result;
 }

@@ -22,9 +22,10 @@ struct EditMotion {
 /// the vertices that carry handle i. Several paths share normalized arc length; the motion has a sample at
 /// each of their corners. Rotations of handles inside faces are corrected by Newton steps, so that
 /// the point on the moved face stands at the asked angle. `place` is "edits[i]"; `origin`: local origin;
-/// `paper`: the edit's occluders act by the paper's rule, whose default is 32 equal steps.
+/// where the paper's rule acts, the default is 32 equal steps. Where occluders move, the motion has a sample
+/// at each of their poses too; without handles only these.
 /// @throws InputError if a target is out of reach and the edit does not ask for least squares.
 EditMotion find_motion(const Edit& edit, const EditRegion& region, std::span<const Vec3> positions,
-                       const Vec3& origin, const std::string& place, bool paper, Log& log);
+                       const Vec3& origin, const std::string& place, const OccluderSet& occluders, Log& log);
 
 } // namespace anvil

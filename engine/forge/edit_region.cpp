@@ -101,6 +101,27 @@ void fill_fields(const std::vector<HandleField>& fields, EditRegion& region) {
     }
 }
 
+/// Without handles: within the radius of the anchors, or everywhere.
+EditRegion hammered_region(const Edit& edit, const std::string& place, SurfaceState& surface) {
+    EditRegion region;
+    const std::vector<uint32_t> pinned = pinned_vertices(edit, place, surface);
+    if (!edit.anchors.empty()) {
+        const auto sources = sources_of(edit, 0, {}, place, surface);
+        HandleField field{
+            surface.distances(sources, edit.metric, edit.method, edit.radius.value_or(infinity)), 0};
+        field.radius = edit.radius ? *edit.radius : half_reach(field.distances, place);
+        region.radii.push_back(field.radius);
+        region.vertices = region_vertices({field}, pinned);
+        return region;
+    }
+    for (uint32_t v = 0; v < surface.vertex_count(); ++v) {
+        if (!std::binary_search(pinned.begin(), pinned.end(), v)) {
+            region.vertices.push_back(v);
+        }
+    }
+    return region;
+}
+
 std::string method_name(Metric metric, const DistanceField& field) {
     if (metric == Metric::euclidean) {
         return "euclidean";
@@ -116,6 +137,9 @@ double EditRegion::weight(size_t j, uint32_t v) const {
 }
 
 EditRegion find_region(const Edit& edit, const std::string& place, SurfaceState& surface) {
+    if (edit.handles.empty()) {
+        return hammered_region(edit, place, surface);
+    }
     EditRegion region;
     std::vector<HandleField> fields;
     for (size_t j = 0; j < edit.handles.size(); ++j) {

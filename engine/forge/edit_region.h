@@ -10,7 +10,8 @@
 
 namespace anvil {
 
-/// An edit's handles on the mesh. Sizes: k handles, n = vertices.size().
+/// An edit's handles on the mesh. Sizes: k handles, n = vertices.size(). Without handles there is the radius
+/// of the anchors, or none where the whole mesh takes part.
 struct EditRegion {
     std::vector<Vec3> handle_positions;                    ///< k
     std::vector<std::vector<VertexWeight>> handle_weights; ///< k: the vertices that carry each handle

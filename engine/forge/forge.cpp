@@ -5,6 +5,7 @@
 #include "engine/forge/edit_region.h"
 #include "engine/forge/surface_state.h"
 #include "engine/forge/volume.h"
+#include "engine/occluder/occluder_motion.h"
 
 #include <algorithm>
 #include <chrono>
@@ -86,11 +87,20 @@ class Forger {
             for (const OccluderUse& use : occluders_of(recipe_, edit)) {
                 add_occluder(set, models_.at(use.name), use.name, *use.transform, *use.influence,
                              {origin_, diagonal_, radius});
+                set_motion(set, local_motion(use, edit.amount));
             }
         } catch (const InputError& error) {
             throw InputError(place + ": " + error.what());
         }
         return set;
+    }
+
+    std::vector<TimedPose> local_motion(const OccluderUse& use, double amount) const {
+        std::vector<TimedPose> poses = first_part(timed_poses(use), amount);
+        for (TimedPose& pose : poses) {
+            pose.place.origin -= origin_;
+        }
+        return poses;
     }
 
     void apply(const Edit& edit, const std::string& place) {
@@ -135,16 +145,22 @@ class Forger {
                 input.segments.push_back({s.begin, s.c0, s.c1, s.c2, s.c3});
             }
         }
-        input.occluders = occluders(edit, *std::max_element(region.radii.begin(), region.radii.end()), place);
+        input.occluders = occluders(edit, largest_radius(region), place);
         find_start_distances(input);
         return input;
+    }
+
+    /// How far the edit reaches; a hammer on a whole mesh: half of it.
+    double largest_radius(const EditRegion& region) const {
+        return region.radii.empty() ? 0.5 * diagonal_
+                                    : *std::max_element(region.radii.begin(), region.radii.end());
     }
 
     EditMotion solve(const Edit& edit, const EditRegion& region, const DeformInput& input,
                      const std::string& place, EditReport& report) {
         const StageTimer timer(seconds().solve);
         EditMotion motion =
-            find_motion(edit, region, result_.positions, origin_, place, input.occluders.paper, log_);
+            find_motion(edit, region, result_.positions, origin_, place, input.occluders, log_);
         report.rank = motion.solution.rank;
         report.condition = motion.solution.condition;
         report.amplification = motion.solution.amplification;
@@ -189,7 +205,7 @@ class Forger {
             if (!input.occluders.paper) {
                 report.contact->finished_on_cpu = finish_contact(input.occluders, input.points, inside, ends);
             }
-            measure_vertices(input.occluders, ends, inside, *report.contact);
+            measure_vertices(at_end(input.occluders), ends, inside, *report.contact);
         }
         for (size_t i = 0; i < ends.size(); ++i) {
             const Vec3 displacement = results[i].displacement + (ends[i] - unfinished[i]);
@@ -242,7 +258,7 @@ class Forger {
                 triangles.push_back(t);
             }
         }
-        measure_triangles(input.occluders, result_.positions, origin_, triangles, *report.contact);
+        measure_triangles(at_end(input.occluders), result_.positions, origin_, triangles, *report.contact);
     }
 
     void report_volume(EditReport& report) {

@@ -30,6 +30,7 @@ class SurfaceState {
     DistanceField distances(std::span<const SurfacePoint> sources, Metric metric, DistanceMethod method,
                             double radius);
 
+    size_t vertex_count() const { return positions_.size(); }
     Vec3 position_of(const SurfacePoint& point) const;
     /// The vertices that carry the point, weights > 0.
     std::vector<VertexWeight> weights_of(const SurfacePoint& point) const;

@@ -20,6 +20,7 @@ constexpr size_t few_nodes = 8;
 std::vector<ResourceKind> deform_resources() {
     std::vector<ResourceKind> kinds(9, ResourceKind::storage_buffer);
     kinds.insert(kinds.end(), kernel::f32::MAX_VOLUMES, ResourceKind::volume_texture);
+    kinds.push_back(ResourceKind::storage_buffer);
     return kinds;
 }
 
@@ -31,6 +32,7 @@ DeformVariant DeformVariant::of(const OccluderSet& occluders, const kernel::f32:
     variant.occluders = occluders.empty() ? 0 : 1;
     variant.volumes = volumes == 0 ? 0 : std::bit_ceil(volumes);
     variant.paper = params.paper;
+    variant.moving = params.moving;
     variant.motion = params.motion;
     variant.steps = params.steps;
     variant.one_sample = params.sample_count == 1 ? 1 : 0;
@@ -62,10 +64,11 @@ const ComputeKernel& DeformPipeline::kernel(const DeformVariant& variant) {
             return *kernel;
         }
     }
-    const std::array<uint32_t, 12> constants{variant.occluders,   variant.volumes,        variant.paper,
+    const std::array<uint32_t, 13> constants{variant.occluders,   variant.volumes,        variant.paper,
                                              variant.motion,      variant.steps,          variant.one_sample,
                                              variant.shape_kinds, variant.occluder_count, variant.node_count,
-                                             variant.node_counts, variant.kinds,          variant.influences};
+                                             variant.node_counts, variant.kinds,          variant.influences,
+                                             variant.moving};
     const std::span<const uint32_t> spirv =
         variant.few ? std::span<const uint32_t>(deform_few_comp) : std::span<const uint32_t>(deform_comp);
     kernels_.emplace_back(variant, std::make_unique<ComputeKernel>(

@@ -30,6 +30,7 @@ struct DeformVariant {
     uint32_t node_counts = 0; ///< of each occluder
     uint32_t kinds = 0;       ///< of each node
     uint32_t influences = 0;  ///< of each occluder
+    uint32_t moving = 0;      ///< 1: occluders move
     bool few = false; ///< up to 4 occluders and 8 nodes: kept in registers (no constant: another shader)
 
     /// The least variant for an edit.

@@ -100,6 +100,7 @@ GpuSession::GpuSession(std::shared_ptr<DeformPipeline> pipeline, const DeformInp
     segments_ = narrow_buffer(device, table.segments);
     occluders_ = narrow_buffer(device, input.occluders.occluders);
     nodes_ = narrow_buffer(device, input.occluders.nodes);
+    poses_ = narrow_buffer(device, std::vector<kernel::f64::Pose>(1));
     upload_targets(std::vector<Vec3>(input.handle_count, Vec3(0)));
     const uint32_t most = points_per_chunk(device, input.handle_count, chunk_bytes);
     for (size_t first = 0; first < point_count_; first += most) {
@@ -137,6 +138,7 @@ void GpuSession::bind_resources(Chunk& chunk) {
     for (size_t i = 0; i < kernel::f32::MAX_VOLUMES; ++i) {
         chunk.resources.emplace_back(i < volumes_.size() ? volumes_[i].get() : &pipeline_->no_volume());
     }
+    chunk.resources.emplace_back(BufferRange(poses_));
 }
 
 void GpuSession::upload_targets(const std::vector<Vec3>& targets) {
@@ -152,20 +154,21 @@ void GpuSession::upload_targets(const std::vector<Vec3>& targets) {
     targets_.write_all(values);
 }
 
-void GpuSession::check_motion(const DeformMotion& motion) const {
-    const size_t k = header_.handle_count;
-    const bool fits =
-        motion.steps > 0 &&
-        (k == 0 ? motion.targets.empty() : !motion.targets.empty() && motion.targets.size() % k == 0);
-    if (!fits) {
-        throw InternalError("the deformation's input and motion do not fit each other");
+void GpuSession::upload_poses(const DeformMotion& motion) {
+    if (!header_.occluders.moves()) {
+        return;
     }
+    poses_ = narrow_buffer(pipeline_->device(), kernel_poses(header_, motion));
+    std::for_each(chunks_.begin(), chunks_.end(), [this](Chunk& chunk) { bind_resources(chunk); });
 }
 
 void GpuSession::update(const DeformMotion& motion) {
-    check_motion(motion);
+    if (!fits_handles(motion, header_.handle_count)) {
+        throw InternalError("the deformation's input and motion do not fit each other");
+    }
     const vk::raii::CommandBuffer& commands = commands_.begin(); // waits: the targets are free to be written
     upload_targets(motion.targets);
+    upload_poses(motion);
     kernel::f32::KernelParams params = narrowed(kernel_params(header_, motion));
     const ComputeKernel& kernel = pipeline_->kernel(DeformVariant::of(header_.occluders, params));
     guarded("recording the deformation", [&] {

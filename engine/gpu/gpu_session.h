@@ -31,7 +31,7 @@ class GpuSession final : public DeformSession {
     Chunk make_chunk(const DeformInput& input, size_t first, uint32_t count);
     void bind_resources(Chunk& chunk);
     void upload_targets(const std::vector<Vec3>& targets);
-    void check_motion(const DeformMotion& motion) const;
+    void upload_poses(const DeformMotion& motion);
 
     std::shared_ptr<DeformPipeline> pipeline_;
     DeformInput header_; ///< the input without its per-point arrays
@@ -42,6 +42,7 @@ class GpuSession final : public DeformSession {
     Buffer occluders_;
     Buffer nodes_;
     Buffer targets_;
+    Buffer poses_;
     std::vector<glm::vec3> narrow_targets_;
     std::vector<Chunk> chunks_;
     Commands commands_;

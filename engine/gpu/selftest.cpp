@@ -1,6 +1,6 @@
 #include "engine/gpu/selftest.h"
 
-#include "engine/occluder/occluder_set.h"
+#include "engine/occluder/occluder_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,7 +72,8 @@ bool penetrates(const SelftestCase& test, size_t i, const PointResult& result) {
     if (input.occluders.empty() || input.start_distances[i] < 0) {
         return false;
     }
-    const double distance = exact_distance(input.occluders, input.points[i] + result.displacement).distance;
+    const double distance =
+        exact_distance(at_end(input.occluders), input.points[i] + result.displacement).distance;
     return distance < std::min(0.0, input.start_distances[i]) - allowed_deviation * test.diagonal;
 }
 

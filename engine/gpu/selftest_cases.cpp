@@ -1,7 +1,9 @@
 #include "engine/deform/deform_input.h"
+#include "engine/edit/rotation.h"
 #include "engine/gpu/selftest.h"
 #include "engine/occluder/distance_volume.h"
 #include "engine/occluder/exact_distance.h"
+#include "engine/occluder/occluder_motion.h"
 
 #include <random>
 
@@ -215,6 +217,61 @@ void add_motion_cases(std::vector<SelftestCase>& cases) {
     cases.push_back(finished(std::move(bent)));
 }
 
+/// The last occluder's way, from where it is: pushed, turned and blown up.
+void add_hammer(SelftestCase& test, Vec3 by, double angle, double scale) {
+    const k::Occluder& o = test.input.occluders.occluders.back();
+    const Placement first{{o.axis_x, o.axis_y, o.axis_z}, o.origin, o.scale};
+    Placement second = first;
+    const Rotation turn(Vec3(0), Vec3(1, 2, -1));
+    for (Vec3& axis : second.axes) {
+        axis = turn.turned(axis, angle);
+    }
+    second.origin += by;
+    Placement third = second;
+    third.origin += Vec3(-by.y, by.x, 0.5 * by.z);
+    third.scale *= scale;
+    set_motion(test.input.occluders, {{0, first}, {0.6, second}, {1, third}});
+    test.motion.times = {0.6, 1};
+    const std::vector<Vec3> ends = test.motion.targets;
+    test.motion.targets.clear();
+    for (const double t : test.motion.times) {
+        for (const Vec3& end : ends) {
+            test.motion.targets.push_back(t * end);
+        }
+    }
+}
+
+void add_hammer_cases(std::vector<SelftestCase>& cases) {
+    SelftestCase blow = scene("hammer, no handle", 350, 0);
+    add_occluder(blow, {leaf(k::SHAPE_SPHERE, {0.35, 0, 0})}, 351, k::INFLUENCE_HARD);
+    add_hammer(blow, {0.5, 0.2, -0.3}, 0, 1);
+    cases.push_back(finished(std::move(blow)));
+
+    SelftestCase paddle = scene("paddle against a moving mesh", 360, 2);
+    add_occluder(paddle, {leaf(k::SHAPE_BOX, {0.5, 0.3, 0.1}, 0.05)}, 361, k::INFLUENCE_SOFT);
+    add_hammer(paddle, {0, 0, 0}, 1.2, 1);
+    cases.push_back(finished(std::move(paddle)));
+
+    SelftestCase turned = scene("swelling hammer against a turning mesh", 370, 2);
+    add_occluder(turned, {leaf(k::SHAPE_CAPSULE, {0.2, 0.3, 0})}, 371, k::INFLUENCE_SOFT);
+    add_occluder(turned, {leaf(k::SHAPE_SPHERE, {0.25, 0, 0})}, 372, k::INFLUENCE_HARD);
+    add_hammer(turned, {0.2, -0.3, 0.1}, -0.7, 1.4);
+    turned.motion.kind = MotionKind::chord;
+    turned.motion.axis_origin = {0.1, -0.2, 0.3};
+    turned.motion.axis_direction = glm::normalize(Vec3(0.2, 1, -0.3));
+    for (Vec3& target : turned.motion.targets) {
+        target = Vec3(target.x * 2, 0, 0);
+    }
+    cases.push_back(finished(std::move(turned)));
+
+    SelftestCase fixed = scene("hammer by equal steps", 380, 1);
+    add_occluder(fixed, {leaf(k::SHAPE_TORUS, {0.4, 0.15, 0})}, 381, k::INFLUENCE_HARD);
+    add_hammer(fixed, {-0.3, 0.3, 0.2}, 0.5, 0.8);
+    fixed.motion.fixed_steps = true;
+    fixed.motion.steps = 60;
+    cases.push_back(finished(std::move(fixed)));
+}
+
 void add_rule_cases(std::vector<SelftestCase>& cases) {
     SelftestCase fixed = scene("100 fixed steps", 400, 2);
     fixed.motion.fixed_steps = true;
@@ -262,6 +319,7 @@ std::vector<SelftestCase> selftest_cases() {
     cases.push_back(finished(std::move(outside)));
     add_shape_cases(cases);
     add_motion_cases(cases);
+    add_hammer_cases(cases);
     add_rule_cases(cases);
     cases.push_back(sampled_case("sampled field", 500));
     return cases;

@@ -6,6 +6,7 @@
 #include "engine/occluder/distance_volume.h"
 #include "engine/occluder/exact_distance.h"
 #include "engine/occluder/kernel_types.h"
+#include "engine/occluder/shape_nodes.h"
 #include "engine/occluder/solid.h"
 
 #include <memory>
@@ -13,6 +14,12 @@
 #include <vector>
 
 namespace anvil {
+
+/// Where an occluder is at a time of the edit, in [0, 1].
+struct TimedPose {
+    double at = 0;
+    Placement place;
+};
 
 /// Flat arrays as the kernels read them, lengths relative to a local origin; `exact` and `sizes` have one
 /// entry per occluder.
@@ -24,8 +31,12 @@ struct OccluderSet {
     std::vector<std::shared_ptr<const ExactDistance>> exact;
     std::vector<double> sizes; ///< diagonal of the occluder's bounds, of the mesh's if it is unbounded
     bool paper = false;        ///< all act by the paper's literal influence
+    /// Poses by ascending time of the occluders that move; empty or shorter where they stand still. `occluders`
+    /// holds the poses at the start. See occluder_motion.h.
+    std::vector<std::vector<TimedPose>> motions;
 
     bool empty() const { return occluders.empty(); }
+    bool moves() const { return !motions.empty(); }
 };
 
 /// What of an occluder does not depend on pose or influence: built once a recipe, baked where the recipe says

@@ -1,9 +1,10 @@
 // The edit of one vertex: blend of the handles, then advection along its path past the occluders, alike in
 // C++ and GLSL. "True-level contact": near an occluder a vertex is held at the level `margin`, which no
-// sampled field and no step can miss, and remembers by `lift` how far above its true level that is. The
-// includer provides, beside what occluder.h and shape_function.h need, `params`, `points`, `fields`,
-// `shapes`, `targets` and `start_distances`, `Occluder occluder_at(uint k)` (occluders[k] for a k that
-// differs between vertices), and for C++ the macro INOUT.
+// sampled field and no step can miss, and remembers by `lift` how far above its true level that is. Where
+// occluders move, lengths and directions of steps are those of the relative motion. The includer provides,
+// beside what occluder.h and shape_function.h need, `params`, `points`, `fields`, `shapes`, `targets`,
+// `poses` (sample by sample, params.occluder_count each) and `start_distances`, `Occluder occluder_at(uint
+// k)` (occluders[k] for a k that differs between vertices), and for C++ the macro INOUT.
 
 // The occluder that matters at a point: the one with the least clearance = distance - margin; for a vertex
 // still inside the one of least distance, which it has to leave first.
@@ -30,6 +31,10 @@ struct Vertex {
     real lift;    // margin - true level while held, 0 while free
     real settle;  // the level below which the vertex is never set down
     bool inside;  // has not been outside yet
+    uint segment; // where on the path it is: the segment from this sample,
+    real tau;     // and the share of it
+    uint nearest; // past moving occluders: the nearest one at the start,
+    real way;     // and the relative motion of the two so far, 1e30 once another was nearer
     uint steps;
     uint samples;
     uint flags;
@@ -83,6 +88,10 @@ real3 blended(uint i, uint s) {
     return sum;
 }
 
+Pose pose_at(uint segment, uint k) {
+    return poses[segment * params.occluder_count + k];
+}
+
 Path path_segment(uint i, uint s, real3 start) {
     Path path;
     path.from = blended(i, s);
@@ -98,8 +107,10 @@ Path path_segment(uint i, uint s, real3 start) {
     path.turned = cross(params.axis_direction, arm);
     path.reach = abs(path.to.x - path.from.x) * length(path.across);
     if (params.motion == MOTION_CHORD) {
-        path.from = arc_offset(path.from.x, path.across, path.turned);
-        path.to = arc_offset(path.to.x, path.across, path.turned);
+        real3 chord = arc_offset(blended(i, params.sample_count).x, path.across, path.turned);
+        real count = real(params.sample_count);
+        path.from = (params.moving != 0u ? pose_at(s, 0u).at : real(s) / count) * chord;
+        path.to = (params.moving != 0u ? pose_at(s + 1u, 0u).at : real(s + 1u) / count) * chord;
         path.reach = length(path.to - path.from);
     }
     return path;
@@ -114,6 +125,71 @@ real3 path_at(Path path, real tau) {
     return value;
 }
 
+// R v - v for a turn about a pose's axis.
+real3 turn_offset(Pose pose, real angle, real3 v) {
+    real3 across = v - pose.turn_axis * dot(pose.turn_axis, v);
+    return arc_offset(angle, across, cross(pose.turn_axis, v));
+}
+
+real growth_by(Pose pose, real tau) {
+    return pose.growth == 0.0 ? real(1.0) : exp(tau * pose.growth);
+}
+
+// Occluder `k` at p, where it is at tau of a segment of the path.
+Probe posed_probe(uint k, real3 p, uint segment, real tau) {
+    if (params.moving == 0u) {
+        return occluder_probe(k, p);
+    }
+    Pose pose = pose_at(segment, k);
+    real ratio = pose.ratio * growth_by(pose, tau);
+    real3 arm = p - (pose.origin + tau * pose.move);
+    arm += turn_offset(pose, -tau * pose.turn, arm);
+    real3 q = real3(dot(pose.axis_x, arm), dot(pose.axis_y, arm), dot(pose.axis_z, arm));
+    Probe probe = occluder_probe(k, occluders[k].origin + q / ratio);
+    real3 n = pose.axis_x * probe.normal.x + pose.axis_y * probe.normal.y + pose.axis_z * probe.normal.z;
+    probe.distance = probe.distance * ratio;
+    probe.normal = n + turn_offset(pose, tau * pose.turn, n);
+    return probe;
+}
+
+// How far occluder k carries a point fastened to it, from one share of a segment to another.
+real3 carry(uint k, real3 p, uint segment, real from, real to) {
+    if (params.moving == 0u) {
+        return real3(0.0);
+    }
+    Pose pose = pose_at(segment, k);
+    real3 arm = p - (pose.origin + from * pose.move);
+    real3 turned = turn_offset(pose, (to - from) * pose.turn, arm);
+    return (to - from) * pose.move + turned + (growth_by(pose, to - from) - 1.0) * (arm + turned);
+}
+
+// The same from the first sample to the last.
+real3 carry_all(uint k, real3 p) {
+    Pose pose = pose_at(params.sample_count, k);
+    real3 arm = p - occluder_at(k).origin;
+    return pose.origin + pose.ratio * (pose.axis_x * arm.x + pose.axis_y * arm.y + pose.axis_z * arm.z) - p;
+}
+
+// The fastest that the vertex and any occluder's surface near it may approach, per share of the segment,
+// for a step this long.
+real pace(Path path, Contact here, Vertex vertex) {
+    if (params.moving == 0u) {
+        return path.reach;
+    }
+    real fastest = 0.0;
+    real3 p = vertex.start + path_at(path, vertex.tau) + vertex.offset;
+    for (uint k = 0u; k < params.occluder_count; ++k) {
+        Pose pose = pose_at(vertex.segment, k);
+        real linear = params.motion == MOTION_ARC ? path.reach + length(pose.move)
+                                                  : length(path.to - path.from - pose.move);
+        real arm = length(p - (pose.origin + vertex.tau * pose.move)) + here.step;
+        // Twice the growth: exp(x) - 1 <= 2 x for the x <= 1/2 that such a step leaves.
+        real grown = 2.0 * abs(pose.growth) * (arm + max(here.distance, real(0.0)));
+        fastest = max(fastest, linear + abs(pose.turn) * arm + grown);
+    }
+    return fastest;
+}
+
 Contact contact_at(real3 p, INOUT(Vertex) vertex) {
     Contact contact;
     contact.occluder = 0u;
@@ -124,7 +200,7 @@ Contact contact_at(real3 p, INOUT(Vertex) vertex) {
     contact.step = 1e30;
     contact.skip = 1e30;
     for (uint k = 0u; k < params.occluder_count; ++k) {
-        Probe probe = occluder_probe(k, p);
+        Probe probe = posed_probe(k, p, vertex.segment, vertex.tau);
         real clearance = probe.distance - occluders[k].margin;
         real skip = 0.9 * clearance;
         real step = max(occluders[k].step, skip);
@@ -219,11 +295,17 @@ Contact emerge(INOUT(Vertex) vertex, real3 base, real3 offset, real r) {
     return contact;
 }
 
-// One step of the contact rules from `here`, a path increment `move` long r, to base = start + path(next
-// tau).
-Contact contact_step(INOUT(Vertex) vertex, Contact here, real3 base, real3 move, real r) {
-    real3 u = r > 0.0 ? move / r : real3(0.0);
+// One step of the contact rules from `here`, a path increment `move` to base = start + path(next).
+Contact contact_step(INOUT(Vertex) vertex, Contact here, real3 base, real3 move, real next) {
+    real3 last = base - move + vertex.offset;
+    real from = vertex.tau;
+    real3 carried = carry(here.occluder, last, vertex.segment, from, next);
+    real3 relative = move - carried;
+    real r = length(relative);
+    real3 u = r > 0.0 ? relative / r : real3(0.0);
     real3 offset = vertex.offset;
+    vertex.tau = next;
+    vertex.way = here.occluder == vertex.nearest ? vertex.way + r : real(1e30);
     if (vertex.inside) {
         return emerge(vertex, base, offset, r);
     }
@@ -238,10 +320,17 @@ Contact contact_step(INOUT(Vertex) vertex, Contact here, real3 base, real3 move,
     Contact held = contact;
     real3 held_offset = offset;
     bool ok = put_on_level(held_offset, base, held, vertex);
+    if (params.moving != 0u && held.occluder != here.occluder) {
+        carried = carry(held.occluder, last, vertex.segment, from, next);
+        r = length(move - carried);
+    }
     // Held on one smooth surface a vertex goes no farther than its step; farther is a jump across a corner.
-    if (!ok || length(held_offset + move - vertex.offset) >
+    if (!ok || length(held_offset + (move - carried) - vertex.offset) >
                    2.0 * r + 4.0 * NEWTON_TOLERANCE * occluder_at(contact.occluder).step) {
-        vertex.offset -= move; // stay at the last position
+        vertex.offset += carried - move; // stay at the last position, as the occluder sees it
+        if (params.moving != 0u) {
+            return contact_at(base + vertex.offset, vertex);
+        }
         return here;
     }
     vertex.offset = held_offset;
@@ -251,33 +340,34 @@ Contact contact_step(INOUT(Vertex) vertex, Contact here, real3 base, real3 move,
 }
 
 // The next tau: adaptive by the contact's step, or whole steps of the fixed grid.
-real next_tau(real tau, Path path, Contact here) {
+real next_tau(Path path, Contact here, Vertex vertex) {
+    real speed = pace(path, here, vertex);
+    if (!(speed > 0.0)) {
+        return 1.0;
+    }
     if (params.steps == STEPS_FIXED) {
         real count = real(params.step_limit);
-        real whole = max(floor(here.skip * count / path.reach), real(1.0));
-        real done = floor(tau * count + 0.5);
+        real whole = max(floor(here.skip * count / speed), real(1.0));
+        real done = floor(vertex.tau * count + 0.5);
         return min(done + whole, count) / count;
     }
-    real next = tau + here.step / path.reach;
+    real next = vertex.tau + here.step / speed;
     return next > 1.0 - 1e-6 ? real(1.0) : next;
 }
 
 // Follows one path segment. Returns the path's value where the vertex ended (before 1 if the limit was
 // reached).
 real3 follow(INOUT(Vertex) vertex, Path path, INOUT(Contact) here) {
-    real tau = 0.0;
-    real3 at = path_at(path, tau);
-    while (tau < 1.0) {
+    real3 at = path_at(path, vertex.tau);
+    while (vertex.tau < 1.0) {
         if (params.steps == STEPS_ADAPTIVE && vertex.steps >= params.step_limit) {
             vertex.flags |= VERTEX_LIMIT_REACHED;
             return at;
         }
-        real next = next_tau(tau, path, here);
+        real next = next_tau(path, here, vertex);
         real3 to = path_at(path, next);
-        real3 move = to - at;
-        here = contact_step(vertex, here, vertex.start + to, move, length(move));
+        here = contact_step(vertex, here, vertex.start + to, to - at, next);
         vertex.steps += 1u;
-        tau = next;
         at = to;
     }
     return at;
@@ -302,7 +392,8 @@ void set_down(INOUT(Vertex) vertex, real3 base, Contact here) {
 // The paper's own rule, eq. 11-17 to the letter: N equal steps, no margin, no limit.
 real3 follow_paper(INOUT(Vertex) vertex, Path path) {
     for (uint i = 1u; i <= params.step_limit; ++i) {
-        real3 q = vertex.start + path_at(path, real(i) / real(params.step_limit)) + vertex.offset;
+        vertex.tau = real(i) / real(params.step_limit);
+        real3 q = vertex.start + path_at(path, vertex.tau) + vertex.offset;
         Contact contact = contact_at(q, vertex);
         real psi = contact.distance <= 0.0 ? -contact.distance : exp(-contact.distance * contact.distance);
         vertex.offset += psi * contact.normal;
@@ -326,6 +417,17 @@ real whole_length(uint i, real3 start) {
     return total;
 }
 
+// The same where occluders move: in the relative motion of the vertex and the one occluder that has been the
+// nearest all along; there is no such motion where several were.
+real3 bounded_past_moving(real3 displacement, Contact here, Vertex vertex) {
+    if (here.occluder != vertex.nearest) {
+        return displacement;
+    }
+    real3 carried = carry_all(vertex.nearest, vertex.start);
+    real size = length(displacement - carried);
+    return size > vertex.way ? carried + (displacement - carried) * (vertex.way / size) : displacement;
+}
+
 // Point i from its place before the edit to its displacement after it.
 VertexResult deformed(uint i) {
     Vertex vertex;
@@ -334,21 +436,31 @@ VertexResult deformed(uint i) {
     vertex.lift = 0.0;
     vertex.settle = max(start_distances[i], real(0.0));
     vertex.inside = start_distances[i] < 0.0;
+    vertex.segment = 0u;
+    vertex.tau = 0.0;
+    vertex.nearest = 0u;
+    vertex.way = 0.0;
     vertex.steps = 0u;
     vertex.samples = 0u;
     vertex.flags = vertex.inside ? VERTEX_STARTED_INSIDE : 0u;
     real3 at = real3(0.0);
     bool lifts = params.paper == 0u && !vertex.inside;
-    real path_length = params.occluder_count > 0u ? whole_length(i, vertex.start) : real(0.0);
+    bool stands = params.moving == 0u;
+    real path_length = params.occluder_count > 0u && stands ? whole_length(i, vertex.start) : real(0.0);
+    Contact here;
+    here.occluder = 0u;
     if (params.occluder_count == 0u) {
         at = path_at(path_segment(i, params.sample_count - 1u, vertex.start), 1.0);
-    } else if (path_length > params.path_epsilon) {
-        Contact here = lifts ? lifted(vertex) : contact_at(vertex.start, vertex);
+    } else if (!stands || path_length > params.path_epsilon) {
+        here = lifts ? lifted(vertex) : contact_at(vertex.start, vertex);
+        vertex.nearest = here.occluder;
         for (uint s = 0u; s < params.sample_count && (vertex.flags & VERTEX_LIMIT_REACHED) == 0u; ++s) {
             Path path = path_segment(i, s, vertex.start);
+            vertex.segment = s;
+            vertex.tau = 0.0;
             if (params.paper != 0u) {
                 at = follow_paper(vertex, path);
-            } else if (path.reach > 0.0) {
+            } else if (!stands || path.reach > 0.0) {
                 at = follow(vertex, path, here);
             }
         }
@@ -359,7 +471,8 @@ VertexResult deformed(uint i) {
     VertexResult result;
     result.displacement = at + vertex.offset;
     if (lifts && vertex.offset != real3(0.0)) {
-        result.displacement = bounded_by(result.displacement, path_length);
+        result.displacement = stands ? bounded_by(result.displacement, path_length)
+                                     : bounded_past_moving(result.displacement, here, vertex);
     }
     result.steps = vertex.steps;
     result.samples = vertex.samples;

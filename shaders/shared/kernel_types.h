@@ -75,13 +75,28 @@ struct Occluder {
     CurveRange curve;
 };
 
+// Where an occluder is at a sample of the path, and how it goes on to the next one (shares of both linear,
+// scale by its logarithm). The rows turn from the world at this sample to where the occluder's own pose is.
+struct Pose {
+    real3 axis_x;
+    real3 axis_y;
+    real3 axis_z;
+    real3 origin;
+    real3 move;
+    real3 turn_axis; // through the origin, unit
+    real turn;       // radians
+    real ratio;      // of its scale to that of its own pose
+    real growth;     // logarithm of the next scale over this one
+    real at;         // the sample's time in [0, 1]
+};
+
 const uint MOTION_STRAIGHT = 0u;
 const uint MOTION_ARC = 1u;   // rotation, swept along the arc
 const uint MOTION_CHORD = 2u; // rotation, swept along the chord from start to end
 const uint STEPS_ADAPTIVE = 0u;
 const uint STEPS_FIXED = 1u;
 
-// One edit's motion (push constants; 64 bytes in float).
+// One edit's motion (push constants; 68 bytes in float).
 struct KernelParams {
     uint point_count;
     uint field_stride; // entries of `fields` between two handles
@@ -92,6 +107,7 @@ struct KernelParams {
     uint steps;
     uint step_limit; // fixed: the number of steps; adaptive: the most a vertex may take
     uint paper;      // 1: all occluders act by the paper's literal influence
+    uint moving;     // 1: occluders move: there are poses
     real3 axis_origin;
     real3 axis_direction;
     real path_epsilon; // paths shorter than this do not move a vertex
