@@ -3,6 +3,7 @@
 
 #include "engine/distance/bucket_queue.h"
 #include "engine/distance/fan_table.h"
+#include "engine/distance/front_blend.h"
 
 namespace anvil {
 
@@ -39,16 +40,6 @@ class VertexFronts {
     float distance(uint32_t vertex) const { return fronts_[vertex].distance; }
 
   private:
-    struct Front {
-        float distance = 0;
-        float offset = 0; ///< distance of the centre itself from the source
-        float back = 0;   ///< direction of the centre
-        uint32_t label = 0;
-        uint32_t parents = 0; ///< that the value came from: both ends of an edge xored, or ~ of a single one
-        uint32_t stamp = 0;   ///< run, then times marched from, then flags
-        float total = 0;      ///< Fan::total, or `tangled_total`
-        uint32_t first_spoke = 0;
-    };
     struct Waiting {
         float distance;
         uint32_t vertex;
@@ -56,7 +47,6 @@ class VertexFronts {
     struct Opposite;
 
     bool is_reached(const Front& front) const { return front.stamp >= run_stamp_; }
-    static bool in_shadow(const Front& front, float direction);
     static bool is_settled(const Front& front) { return (front.stamp & 1) != 0; }
     void accept(uint32_t vertex, float distance, float offset, float direction, uint32_t label,
                 uint32_t parents, float delay = 0);
