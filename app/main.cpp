@@ -65,11 +65,11 @@ int main(int argc, char** argv) {
     anvil::add_info(program, context);
     anvil::add_distance(program, context);
     anvil::add_probe(program, context);
+    anvil::add_bake(program, context);
     anvil::add_sample(program, context);
     anvil::add_devices(program, context);
     anvil::add_selftest(program, context);
     program.add_later_command("view", "Open a mesh or recipe in a window");
-    program.add_later_command("bake", "Write an occluder's distance field as a VDB level set");
     program.add_later_command("bench", "Measure this machine");
 
     const int status = run(program, argc, argv);

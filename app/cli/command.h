@@ -74,6 +74,7 @@ void add_forge(Program& program, CommandContext& context);
 void add_info(Program& program, CommandContext& context);
 void add_distance(Program& program, CommandContext& context);
 void add_probe(Program& program, CommandContext& context);
+void add_bake(Program& program, CommandContext& context);
 void add_sample(Program& program, CommandContext& context);
 void add_devices(Program& program, CommandContext& context);
 void add_selftest(Program& program, CommandContext& context);

@@ -51,11 +51,11 @@ PlaneShape read_plane(const JsonReader& shape) {
     return plane;
 }
 
-MeshShape read_mesh_shape(const JsonReader& file) {
+std::string read_path(const JsonReader& file, const std::string& what) {
     if (file.text().empty()) {
-        file.fail_found("must be the path of a mesh file, relative to the recipe");
+        file.fail_found("must be the path of " + what + " file, relative to the recipe");
     }
-    return {file.text()};
+    return file.text();
 }
 
 void refuse_motion(const JsonReader& occluder) {
@@ -109,7 +109,10 @@ OccluderShape::Solid read_solid(const std::string& kind, const JsonReader& shape
         return read_plane(shape);
     }
     if (kind == "mesh") {
-        return read_mesh_shape(shape);
+        return MeshShape{read_path(shape, "a mesh")};
+    }
+    if (kind == "vdb") {
+        return VdbShape{read_path(shape, "a .vdb"), ""};
     }
     if (kind == "union" || kind == "intersection" || kind == "subtract") {
         return read_csg(shape, kind == "union"      ? CsgOperation::unite
@@ -180,7 +183,7 @@ std::optional<Field> read_field(const JsonReader& occluder, const OccluderShape&
         result.resolution = resolution->whole(8, 1024);
     }
     if (result.kind == FieldKind::exact && !has_formula(shape)) {
-        field->fail("a mesh has no formula: use \"kind\": \"dense\", or leave \"field\" out");
+        field->fail("a mesh or level set has no formula: use \"kind\": \"dense\", or leave \"field\" out");
     }
     if (result.kind == FieldKind::dense && !is_bounded(shape)) {
         field->fail(
@@ -244,9 +247,11 @@ Influence read_influence(const JsonReader& influence) {
 }
 
 OccluderShape read_occluder_shape(const JsonReader& shape) {
-    const std::vector<std::string> kinds{"sphere", "box",  "cylinder", "capsule",      "cone",    "torus",
-                                         "plane",  "mesh", "union",    "intersection", "subtract"};
-    shape.check_keys(kinds, {"vdb", "grid"});
+    const std::vector<std::string> kinds{"sphere", "box",  "cylinder", "capsule", "cone",         "torus",
+                                         "plane",  "mesh", "vdb",      "union",   "intersection", "subtract"};
+    std::vector<std::string> keys = kinds;
+    keys.emplace_back("grid");
+    shape.check_keys(keys);
     std::optional<OccluderShape::Solid> solid;
     for (const std::string& kind : kinds) {
         if (!shape.has(kind)) {
@@ -259,6 +264,13 @@ OccluderShape read_occluder_shape(const JsonReader& shape) {
     }
     if (!solid) {
         shape.fail_found("must name a shape, e.g. {\"sphere\": {\"radius\": 1}}");
+    }
+    if (const auto grid = shape.find("grid")) {
+        auto* vdb = std::get_if<VdbShape>(&*solid);
+        if (vdb == nullptr) {
+            grid->fail_found("names a grid of a \"vdb\" shape; remove it");
+        }
+        vdb->grid = grid->text();
     }
     return {*solid};
 }

@@ -34,7 +34,8 @@ bool is_bounded(const OccluderShape& shape) {
 bool has_formula(const OccluderShape& shape) {
     const auto* csg = std::get_if<CsgShape>(&shape.solid);
     if (!csg) {
-        return !std::holds_alternative<MeshShape>(shape.solid);
+        return !std::holds_alternative<MeshShape>(shape.solid) &&
+               !std::holds_alternative<VdbShape>(shape.solid);
     }
     return std::all_of(csg->parts.begin(), csg->parts.end(),
                        [](const CsgPart& part) { return has_formula(part.shape); });

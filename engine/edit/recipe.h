@@ -154,10 +154,18 @@ struct MeshShape {
     bool operator==(const MeshShape&) const = default;
 };
 
+/// A level set of an OpenVDB file as a solid, in the grid's world space.
+struct VdbShape {
+    std::string file; ///< as written: relative to the recipe's folder
+    std::string grid; ///< empty: the file's only level set
+
+    bool operator==(const VdbShape&) const = default;
+};
+
 /// The solid of an occluder.
 struct OccluderShape {
     using Solid = std::variant<SphereShape, BoxShape, CylinderShape, CapsuleShape, ConeShape, TorusShape,
-                               PlaneShape, MeshShape, CsgShape>;
+                               PlaneShape, MeshShape, VdbShape, CsgShape>;
     Solid solid;
 
     bool operator==(const OccluderShape&) const = default;
@@ -176,7 +184,7 @@ struct CsgPart {
 /// bounded in all parts, an intersection in one, a difference in the first.
 bool is_bounded(const OccluderShape& shape);
 
-/// Whether the shape has a formula that kernels evaluate: no mesh is part of it.
+/// Whether the shape has a formula that kernels evaluate: no file is part of it.
 bool has_formula(const OccluderShape& shape);
 
 enum class FieldKind { exact, dense };

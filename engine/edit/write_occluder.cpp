@@ -23,6 +23,13 @@ struct SolidWriter {
         return {{"plane", {{"normal", written(s.normal)}, {"offset", s.offset}}}};
     }
     Json operator()(const MeshShape& s) const { return {{"mesh", s.file}}; }
+    Json operator()(const VdbShape& s) const {
+        Json result{{"vdb", s.file}};
+        if (!s.grid.empty()) {
+            result["grid"] = s.grid;
+        }
+        return result;
+    }
     Json operator()(const CsgShape& s) const {
         Json parts = Json::array();
         for (const CsgPart& part : s.parts) {

@@ -14,7 +14,6 @@ namespace k = kernel::f64;
 
 constexpr double steps_across = 128;   // analytic shapes: h = diagonal / 128 (mathematics of contact)
 constexpr double default_sigma = 0.05; // of the bounding radius
-constexpr int least_cells = 96;        // of the polygonization behind a re-distanced solid
 
 k::ShapeNode volume_node(const DistanceVolume& volume) {
     k::ShapeNode node{};
@@ -91,16 +90,15 @@ OccluderModel build_model(const OccluderShape& shape, const Field& field, Progre
     if (has_formula(shape)) {
         model.nodes = shape_nodes(shape);
     }
-    model.exact = solid_distance(shape, source);
+    model.exact = field.kind == FieldKind::dense
+                      ? true_distance(shape, source, static_cast<int>(field.resolution))
+                      : solid_distance(shape, source);
     model.bounds = model.exact->bounds();
     if (model.bounds.empty()) {
         throw InputError(
             "the solid is empty: its parts leave nothing over; move them so that something remains");
     }
     if (field.kind == FieldKind::dense) {
-        if (std::holds_alternative<CsgShape>(shape.solid)) {
-            model.exact = redistanced(model.exact, std::max(least_cells, static_cast<int>(field.resolution)));
-        }
         model.volumes.push_back(
             std::make_shared<DistanceVolume>(bake(*model.exact, field.resolution, progress)));
         model.nodes = {volume_node(*model.volumes.front())};

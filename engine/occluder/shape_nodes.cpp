@@ -45,6 +45,7 @@ struct LeafNode {
         return make(k::SHAPE_PLANE, s.normal / glm::length(s.normal), s.offset);
     }
     k::ShapeNode operator()(const MeshShape&) const { throw InternalError("a mesh has no formula"); }
+    k::ShapeNode operator()(const VdbShape&) const { throw InternalError("a level set has no formula"); }
     k::ShapeNode operator()(const CsgShape&) const { throw InternalError("a Boolean shape is no leaf"); }
 
     static k::ShapeNode make(uint32_t kind, const Vec3& size, double extra) {

@@ -1,29 +1,31 @@
 #include "engine/occluder/solid.h"
 
 #include "engine/mesh/mesh_reader.h"
+#include "engine/occluder/level_set_file.h"
 #include "engine/occluder/mesh_distance.h"
 #include "engine/occluder/shape_nodes.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace anvil {
 
 namespace {
 
-/// A part at its place within a Boolean shape.
-struct PlacedPart {
-    std::shared_ptr<const ExactDistance> solid;
-    Placement place;
+class PlacedDistance final : public ExactDistance {
+  public:
+    PlacedDistance(std::shared_ptr<const ExactDistance> solid, const Placement& place)
+        : solid_(std::move(solid)), place_(place) {}
 
-    SignedDistance at(const Vec3& p) const {
-        const Vec3 arm = (p - place.origin) / place.scale;
-        const auto& [x, y, z] = place.axes;
-        const SignedDistance s = solid->at(Vec3(glm::dot(x, arm), glm::dot(y, arm), glm::dot(z, arm)));
-        return {s.distance * place.scale, x * s.normal.x + y * s.normal.y + z * s.normal.z};
+    SignedDistance at(const Vec3& p) const override {
+        const Vec3 arm = (p - place_.origin) / place_.scale;
+        const auto& [x, y, z] = place_.axes;
+        const SignedDistance s = solid_->at(Vec3(glm::dot(x, arm), glm::dot(y, arm), glm::dot(z, arm)));
+        return {s.distance * place_.scale, x * s.normal.x + y * s.normal.y + z * s.normal.z};
     }
 
-    Box bounds() const {
-        const Box local = solid->bounds();
+    Box bounds() const override {
+        const Box local = solid_->bounds();
         if (local.empty() || !is_finite(local.low) || !is_finite(local.high)) {
             return local;
         }
@@ -31,23 +33,27 @@ struct PlacedPart {
         for (int corner = 0; corner < 8; ++corner) {
             const Vec3 p(corner & 1 ? local.high.x : local.low.x, corner & 2 ? local.high.y : local.low.y,
                          corner & 4 ? local.high.z : local.low.z);
-            box.include(place.origin +
-                        place.scale * (place.axes[0] * p.x + place.axes[1] * p.y + place.axes[2] * p.z));
+            box.include(place_.origin +
+                        place_.scale * (place_.axes[0] * p.x + place_.axes[1] * p.y + place_.axes[2] * p.z));
         }
         return box;
     }
+
+  private:
+    std::shared_ptr<const ExactDistance> solid_;
+    Placement place_;
 };
 
 /// Boolean operation of solids that have no common formula.
 class BooleanDistance final : public ExactDistance {
   public:
-    BooleanDistance(CsgOperation operation, std::vector<PlacedPart> parts)
+    BooleanDistance(CsgOperation operation, std::vector<std::shared_ptr<const ExactDistance>> parts)
         : operation_(operation), parts_(std::move(parts)) {}
 
     SignedDistance at(const Vec3& p) const override {
-        SignedDistance result = parts_.front().at(p);
+        SignedDistance result = parts_.front()->at(p);
         for (size_t i = 1; i < parts_.size(); ++i) {
-            SignedDistance next = parts_[i].at(p);
+            SignedDistance next = parts_[i]->at(p);
             if (operation_ == CsgOperation::subtract) {
                 next = {-next.distance, -next.normal};
             }
@@ -59,9 +65,9 @@ class BooleanDistance final : public ExactDistance {
     }
 
     Box bounds() const override {
-        Box box = parts_.front().bounds();
+        Box box = parts_.front()->bounds();
         for (size_t i = 1; i < parts_.size() && operation_ != CsgOperation::subtract; ++i) {
-            const Box next = parts_[i].bounds();
+            const Box next = parts_[i]->bounds();
             box = operation_ == CsgOperation::unite
                       ? Box{glm::min(box.low, next.low), glm::max(box.high, next.high)}
                       : Box{glm::max(box.low, next.low), glm::min(box.high, next.high)};
@@ -72,40 +78,65 @@ class BooleanDistance final : public ExactDistance {
 
   private:
     CsgOperation operation_;
-    std::vector<PlacedPart> parts_;
+    std::vector<std::shared_ptr<const ExactDistance>> parts_;
 };
 
-Mesh read_solid_mesh(const MeshShape& shape, const SolidSource& source) {
+/// The surface that a shape's file holds; nothing if the shape is none of a file.
+std::optional<Mesh> read_solid(const OccluderShape& shape, const SolidSource& source) {
     Log log;
-    Mesh mesh = read_mesh(source.folder / shape.file, log);
+    std::optional<Mesh> surface;
+    std::string file;
+    if (const auto* mesh = std::get_if<MeshShape>(&shape.solid)) {
+        file = "occluder mesh " + mesh->file;
+        surface = read_mesh(source.folder / mesh->file, log);
+    } else if (const auto* vdb = std::get_if<VdbShape>(&shape.solid)) {
+        file = "occluder " + vdb->file;
+        surface = read_level_set(source.folder / vdb->file, vdb->grid, log);
+    }
     if (source.log != nullptr) {
         for (const std::string& warning : log.warnings) {
-            source.log->warn("occluder mesh " + shape.file + ": " + warning);
+            std::string message = file;
+            message += ": ";
+            message += warning;
+            source.log->warn(message);
         }
     }
-    return mesh;
+    return surface;
 }
 
 } // namespace
+
+std::shared_ptr<const ExactDistance> placed(std::shared_ptr<const ExactDistance> solid,
+                                            const Transform& transform) {
+    return std::make_shared<PlacedDistance>(std::move(solid), placement(transform));
+}
 
 std::shared_ptr<const ExactDistance> solid_distance(const OccluderShape& shape, const SolidSource& source) {
     if (has_formula(shape)) {
         return formula_distance(shape_nodes(shape));
     }
-    if (const auto* mesh = std::get_if<MeshShape>(&shape.solid)) {
-        return mesh_distance(read_solid_mesh(*mesh, source));
+    if (const std::optional<Mesh> surface = read_solid(shape, source)) {
+        return mesh_distance(*surface);
     }
     const auto& csg = std::get<CsgShape>(shape.solid);
-    std::vector<PlacedPart> parts;
+    std::vector<std::shared_ptr<const ExactDistance>> parts;
     std::transform(csg.parts.begin(), csg.parts.end(), std::back_inserter(parts), [&](const CsgPart& part) {
-        return PlacedPart{solid_distance(part.shape, source), placement(part.transform)};
+        return placed(solid_distance(part.shape, source), part.transform);
     });
     return std::make_shared<BooleanDistance>(csg.operation, std::move(parts));
 }
 
+std::shared_ptr<const ExactDistance> true_distance(const OccluderShape& shape, const SolidSource& source,
+                                                   int cells) {
+    auto solid = solid_distance(shape, source);
+    constexpr int least_cells = 96;
+    return std::holds_alternative<CsgShape>(shape.solid) ? redistanced(solid, std::max(cells, least_cells))
+                                                         : solid;
+}
+
 Mesh solid_surface(const OccluderShape& shape, const SolidSource& source, int cells) {
-    if (const auto* mesh = std::get_if<MeshShape>(&shape.solid)) {
-        return read_solid_mesh(*mesh, source);
+    if (std::optional<Mesh> surface = read_solid(shape, source)) {
+        return *std::move(surface);
     }
     return surface_of(*solid_distance(shape, source), cells);
 }

@@ -110,3 +110,16 @@ TEST_CASE("A mesh is an occluder's shape by its file, baked densely unless it is
     check_complaint(with_occluder(R"("shape": {"mesh": "tool.obj"}, "field": {"kind": "exact"})"),
                     {"field", "no formula", "dense"});
 }
+
+TEST_CASE("A level set is an occluder's shape by its file and, where it has several, its grid") {
+    for (const char* shape : {R"({"vdb": "tool.vdb"})", R"({"vdb": "tool.vdb", "grid": "surface"})"}) {
+        const Recipe recipe = parse_recipe(with_shape(shape), "folder/recipe.json");
+        CHECK(std::get<VdbShape>(recipe.occluders[0].shape.solid).file == "tool.vdb");
+        CHECK_FALSE(has_formula(recipe.occluders[0].shape));
+        CHECK(parse_recipe(write_recipe(recipe), "folder/recipe.json") == recipe);
+    }
+    const Recipe named = parse(with_shape(R"({"vdb": "tool.vdb", "grid": "surface"})"));
+    CHECK(std::get<VdbShape>(named.occluders[0].shape.solid).grid == "surface");
+    check_complaint(with_shape(R"({"vdb": ""})"), {"occluders[0].shape.vdb", "path of a .vdb file"});
+    check_complaint(with_shape(R"({"mesh": "tool.obj", "grid": "surface"})"), {"grid", "vdb"});
+}

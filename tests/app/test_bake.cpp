@@ -1,0 +1,109 @@
+#include "tests/app/forge_folder.h"
+#include "tests/app/program.h"
+#include "tests/support/scratch_folder.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+using namespace anvil;
+
+namespace {
+
+constexpr const char* two_occluders = R"([
+    {"name": "ball", "shape": {"sphere": {"radius": 0.5}}, "transform": {"translate": [1, 0, 0], "scale": 2}},
+    {"name": "bite", "shape": {"subtract": [
+        {"shape": {"box": {"half": [1, 1, 1]}}},
+        {"shape": {"sphere": {"radius": 0.8}}, "transform": {"translate": [1, 1, 1]}}]},
+     "field": {"kind": "dense", "resolution": 64}}])";
+
+struct Bake {
+    ScratchFolder folder;
+    std::string recipe = write_recipe("recipe.json", two_occluders);
+    std::string vdb = folder / "out.vdb";
+
+    std::string write_recipe(const std::string& name, const std::string& occluders) const {
+        const std::string file = folder / name;
+        std::ofstream(file) << R"({"anvil": 1, "mesh": "none.ply", "edits": [], "occluders": )" << occluders
+                            << "}";
+        return file;
+    }
+    ProgramRun run(const std::vector<std::string>& arguments) const {
+        std::vector<std::string> all{"bake", recipe};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        return run_anvil(all);
+    }
+};
+
+} // namespace
+
+TEST_CASE("bake writes an occluder that probe finds again at the same place", "[app][bake]") {
+    const Bake bake;
+    const ProgramRun baked = bake.run({"-o", bake.vdb, "--occluder", "ball"});
+    INFO(baked.err);
+    REQUIRE(baked.status == 0);
+    const std::string recipe = bake.write_recipe(
+        "again.json", R"([{"name": "again", "shape": {"vdb": "out.vdb", "grid": "surface"}}])");
+    const std::string points = bake.folder / "points.txt";
+    std::ofstream(points) << "3 0 0\n1 0.25 0\n-5 0 0\n";
+    const ProgramRun probed = run_anvil({"probe", recipe, points});
+    INFO(probed.err);
+    REQUIRE(probed.status == 0);
+    std::istringstream text(probed.out);
+    for (const double expected : {1.0, -0.75, 5.0}) {
+        double distance = 0;
+        double normal = 0;
+        text >> distance >> normal >> normal >> normal;
+        CHECK(distance == Approx(expected).margin(0.1 * 2.0 / 128)); // a tenth of a voxel
+    }
+}
+
+TEST_CASE("bake says which occluder it wants, and what a level set cannot hold", "[app][bake]") {
+    const Bake bake;
+    const auto check = [&](const std::vector<std::string>& arguments, const std::string& word) {
+        const ProgramRun run = bake.run(arguments);
+        CHECK(run.status == 2);
+        CHECK_THAT(run.err, Catch::Contains(word));
+        CHECK_FALSE(std::filesystem::exists(bake.vdb));
+    };
+    check({"-o", bake.vdb}, "\"ball\", \"bite\"");
+    check({"-o", bake.vdb, "--occluder", "bal"}, "\"ball\", \"bite\"");
+    check({"-o", bake.folder / "out.obj", "--occluder", "ball"}, ".vdb");
+    bake.write_recipe("recipe.json", R"([{"name": "floor", "shape": {"plane": {"normal": [0, 1, 0]}}}])");
+    check({"-o", bake.vdb}, "floor");
+    bake.write_recipe("recipe.json", "[]");
+    check({"-o", bake.vdb}, "no occluder");
+    bake.write_recipe("recipe.json", R"([{"name": "tool", "shape": {"vdb": "gone.vdb"}}])");
+    check({"-o", bake.vdb}, "gone.vdb");
+}
+
+TEST_CASE("A level set from a file stops a surface as the sphere that it holds does", "[app][bake]") {
+    const Bake bake;
+    bake.write_recipe("recipe.json", R"([{"name": "ball", "shape": {"sphere": {"radius": 0.3}},
+        "field": {"kind": "dense", "resolution": 32}}])");
+    REQUIRE(bake.run({"-o", bake.vdb}).status == 0);
+    const ForgeFolder forge;
+    std::filesystem::copy_file(bake.vdb, forge.path("out.vdb"));
+    forge.write(
+        "push.json",
+        recipe_text(
+            R"([{"kind": "translate", "radius": 1,
+        "handles": [{"at": {"nearest": [0, 0, 1]}, "by": [0, 0, -0.9]}]}])",
+            R"([{"name": "tool", "shape": {"vdb": "out.vdb"}, "field": {"kind": "dense", "resolution": 32},
+            "influence": {"kind": "hard"}}])"));
+    const ProgramRun run = forge.forge({forge.path("push.json"), "--device", "cpu", "-o",
+                                        forge.path("out.ply"), "--report", forge.path("report.json")});
+    INFO(run.err);
+    REQUIRE(run.status == 0);
+    const auto edit = nlohmann::json::parse(content_of(forge.path("report.json")))["edits"][0];
+    CHECK(edit["occluder"]["penetrating_vertices"] == 0);
+    CHECK(edit["occluder"]["contact_vertices"].get<int>() > 10);
+    size_t inside = 0;
+    for (const Vec3& p : forge.mesh("out.ply").positions) {
+        inside +=
+            glm::length(p) < 0.3 - 0.1 * 0.6 / 32; // the level set's surface is off by a tenth of a voxel
+    }
+    CHECK(inside == 0);
+}
