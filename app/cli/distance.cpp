@@ -43,7 +43,8 @@ DistanceMethod method_named(const std::string& name) {
 }
 
 std::vector<double> find_distances(const Mesh& mesh, const Options& options) {
-    SurfaceState surface(mesh, mesh.positions);
+    const RefinementHistory unrefined(mesh);
+    SurfaceState surface(mesh, mesh.positions, unrefined);
     std::vector<SurfacePoint> sources;
     for (const std::string& text : options.from) {
         sources.push_back(surface.resolve(parse_address(text), "--from " + text));

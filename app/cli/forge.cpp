@@ -4,12 +4,14 @@
 #include "app/cli/forge_picture.h"
 #include "app/cli/picture_options.h"
 #include "engine/core/error.h"
+#include "engine/core/number_text.h"
 #include "engine/edit/recipe_json.h"
 #include "engine/mesh/mesh_format.h"
 #include "engine/mesh/mesh_reader.h"
 #include "engine/mesh/mesh_writer.h"
 #include "engine/mesh/normals.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -51,12 +53,19 @@ bool same_file(const fs::path& a, const fs::path& b) {
            fs::absolute(a).lexically_normal() == fs::absolute(b).lexically_normal();
 }
 
+bool is_text(const fs::path& path) {
+    return path.extension() == ".txt";
+}
+
 /// Refuses before any work what would destroy an input or one output with another.
 void check_outputs(const ForgeArguments& arguments, const fs::path& mesh, const fs::path& out) {
     mesh_format(out); // refuses what could not be written
     check_picture_name(arguments.picture.path);
-    const std::vector<std::pair<std::string, fs::path>> outputs{
-        {"-o", out}, {"--image", arguments.picture.path}, {"--report", arguments.report}};
+    const std::vector<std::pair<std::string, fs::path>> outputs{{"-o", out},
+                                                                {"--image", arguments.picture.path},
+                                                                {"--report", arguments.report},
+                                                                {"--parents", arguments.parents},
+                                                                {"--delta", arguments.delta}};
     for (size_t i = 0; i < outputs.size(); ++i) {
         if (outputs[i].second.empty()) {
             continue;
@@ -74,8 +83,8 @@ void check_outputs(const ForgeArguments& arguments, const fs::path& mesh, const 
             }
         }
     }
-    if (!arguments.parents.empty() || !arguments.delta.empty() || arguments.dry_run) {
-        throw InputError("--parents, --delta and --dry-run come with adaptive refinement: not yet");
+    if (!arguments.delta.empty() && !is_text(arguments.delta)) {
+        mesh_format(arguments.delta);
     }
 }
 
@@ -85,17 +94,56 @@ fs::path default_output(const std::string& recipe) {
     return path;
 }
 
-/// One line for a person: what moved, where it went.
+/// One line for a person: what moved, what was added, where it went.
 std::string summary(const ForgeResult& result, const fs::path& out) {
-    size_t moved = 0;
-    for (const bool m : result.moved) {
-        moved += m ? 1 : 0;
+    const auto moved = std::count(result.moved.begin(), result.moved.end(), true);
+    const size_t edits = result.report.edits.size();
+    const size_t added = result.parents.size();
+    return "forged " + std::to_string(edits) + (edits == 1 ? " edit: " : " edits: ") + std::to_string(moved) +
+           " of " + std::to_string(result.report.vertices) + " vertices moved" +
+           (added > 0 ? ", " + std::to_string(added) + " added" : "") + ", on " + result.report.device +
+           " -> " + out.string() + "\n";
+}
+
+/// What refinement would add, edit by edit.
+std::string dry_summary(const ForgeResult& result) {
+    std::string text;
+    for (size_t i = 0; i < result.report.edits.size(); ++i) {
+        const auto& refine = result.report.edits[i].refine;
+        text += "edits[" + std::to_string(i) + "]: " +
+                (refine ? std::to_string(refine->added) + " vertices would be added"
+                        : std::string("does not refine")) +
+                "\n";
     }
-    std::string text = "forged " + std::to_string(result.report.edits.size()) +
-                       (result.report.edits.size() == 1 ? " edit: " : " edits: ") + std::to_string(moved) +
-                       " of " + std::to_string(result.report.vertices) + " vertices moved, on " +
-                       result.report.device + " -> " + out.string() + "\n";
     return text;
+}
+
+/// A line for each new vertex, in order: its parents and the place from the first (0) to the second (1).
+std::string parents_text(const ForgeResult& result) {
+    std::string text;
+    for (const VertexParents& p : result.parents) {
+        text += std::to_string(p.a) + " " + std::to_string(p.b) + " " + number_text(p.place) + "\n";
+    }
+    return text;
+}
+
+/// The file's vertices as the edits leave them, with the file's faces: a blend shape; or as text, a line
+/// `dx dy dz` for each.
+void write_delta(const fs::path& path, Mesh mesh, const ForgeResult& result, OutputPrecision precision) {
+    const std::span<const Vec3> ends(result.positions.data(), mesh.vertex_count());
+    if (!is_text(path)) {
+        const std::vector<bool> moved(result.moved.begin(),
+                                      result.moved.begin() + static_cast<std::ptrdiff_t>(ends.size()));
+        update_normals(mesh, ends, moved);
+        write_mesh(path, mesh, ends, precision);
+        return;
+    }
+    std::string text;
+    for (size_t v = 0; v < ends.size(); ++v) {
+        const Vec3 d = ends[v] - mesh.positions[v];
+        text += number_text(d.x) + " " + number_text(d.y) + " " + number_text(d.z) + "\n";
+    }
+    write_text(path, text);
 }
 
 void run_forge(const ForgeArguments& arguments, CommandContext& context) {
@@ -114,25 +162,36 @@ void run_forge(const ForgeArguments& arguments, CommandContext& context) {
     ForgeResult result = forge(mesh, recipe, *chosen.backend, context.log, context.progress);
     result.report.seconds.load = load_seconds;
 
+    Mesh refined = result.refined ? std::move(*result.refined) : Mesh();
+    Mesh& final_mesh = result.refined ? refined : mesh;
     Picture picture;
     if (arguments.picture.wanted()) {
         const auto device = chosen.device ? chosen.device : std::make_shared<Device>();
-        picture = forge_picture(*device, mesh, recipe, result, view, size, context.progress);
+        picture = forge_picture(*device, final_mesh, recipe, result, view, size, context.progress);
         check_validation(device);
     }
     check_validation(chosen.device);
     const auto write_start = Clock::now();
-    update_normals(mesh, result.positions, result.moved);
-    write_mesh(out, mesh, result.positions, output_precision(arguments.precision));
+    const OutputPrecision precision = output_precision(arguments.precision);
+    if (!arguments.delta.empty()) {
+        write_delta(arguments.delta, mesh, result, precision);
+    }
+    if (!arguments.dry_run) {
+        update_normals(final_mesh, result.positions, result.moved);
+        write_mesh(out, final_mesh, result.positions, precision);
+    }
     if (arguments.picture.wanted()) {
         write_png(arguments.picture.path, picture);
+    }
+    if (!arguments.parents.empty()) {
+        write_text(arguments.parents, parents_text(result));
     }
     result.report.seconds.write = seconds_since(write_start);
     if (!arguments.report.empty()) {
         write_text(arguments.report, report_json(result.report));
     }
     if (!arguments.quiet) {
-        write_text("", summary(result, out));
+        write_text("", arguments.dry_run ? dry_summary(result) : summary(result, out));
     }
 }
 
@@ -151,9 +210,12 @@ void add_forge(Program& program, CommandContext& context) {
                    "Numbers of the written mesh; auto: as the input needs");
     add_picture_options(command, a->picture);
     command.option("--report", a->report, "Report to write (JSON)");
-    command.option("--parents", a->parents, "Origin of refined vertices (not yet)");
-    command.option("--delta", a->delta, "Blend shape of the original vertices (not yet)");
-    command.flag("--dry-run", a->dry_run, "Say what refinement would add (not yet)");
+    command.option("--parents", a->parents,
+                   "Text file to write: the two parents and the place between them of each new vertex");
+    command.option("--delta", a->delta,
+                   "Blend shape to write: the file's own vertices and faces as the edits leave them, or "
+                   "(.txt) their displacements");
+    command.flag("--dry-run", a->dry_run, "Write no mesh; say how many vertices refinement adds");
     command.flag("--quiet", a->quiet, "Print warnings and errors only");
     command.run([a, &context] { run_forge(*a, context); });
 }

@@ -194,6 +194,9 @@ void read_options(const JsonReader& edit, Edit& result) {
     if (const auto least_squares = edit.find("least_squares")) {
         result.least_squares = least_squares->boolean();
     }
+    if (const auto refine = edit.find("refine")) {
+        result.refine = read_refine(*refine);
+    }
     if (const auto amount = edit.find("amount")) {
         result.amount = amount->within(0, 1);
     }
@@ -233,8 +236,8 @@ void check_handleless(const JsonReader& edit, const Edit& parsed) {
 
 Edit read_edit(const JsonReader& edit) {
     edit.check_keys({"kind", "handles", "anchors", "axis", "sweep", "metric", "method", "radius", "shape",
-                     "occluders", "steps", "least_squares", "amount", "pinned"},
-                    {"refine", "smooth_surface", "mirror", "dilation"});
+                     "occluders", "steps", "least_squares", "amount", "pinned", "refine"},
+                    {"smooth_surface", "mirror", "dilation"});
     Edit result;
     result.kind = edit.required("kind").word<EditKind>(
         {{"translate", EditKind::translate}, {"rotate", EditKind::rotate}});

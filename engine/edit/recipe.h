@@ -243,6 +243,19 @@ struct Steps {
     bool operator==(const Steps&) const = default;
 };
 
+enum class RefineCriterion { shape, space, both };
+
+/// Adaptive refinement: vertices where linear interpolation misses the edit by more than the tolerance.
+struct Refine {
+    RefineCriterion criterion = RefineCriterion::shape;
+    double shape_tolerance = 0.001; ///< dimensionless, > 0; of the weights
+    double space_tolerance = 0;     ///< world units, > 0 where the criterion needs it; of the moved surface
+    double min_edge = 0;            ///< world units: no edge is cut into shorter pieces
+    std::optional<uint32_t> max_vertices; ///< of the mesh; absent: 1,000,000, or twice what it has
+
+    bool operator==(const Refine&) const = default;
+};
+
 struct Edit {
     EditKind kind = EditKind::translate;
     std::vector<Handle> handles; ///< at least one, or none where an occluder moves
@@ -257,6 +270,7 @@ struct Edit {
     std::optional<std::vector<OccluderUse>> occluders; ///< absent: all occluders of the recipe as they stand
     std::optional<Steps> steps; ///< absent: adaptive, at most 4096; 32 equal ones for `paper`
     bool least_squares = false;
+    std::optional<Refine> refine; ///< absent: the mesh keeps its vertices
     double amount = 1; ///< in [0, 1]
 
     bool operator==(const Edit&) const = default;

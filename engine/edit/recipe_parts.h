@@ -21,6 +21,7 @@ OccluderShape read_occluder_shape(const JsonReader& shape);
 Occluder read_occluder(const JsonReader& occluder);
 OccluderUse read_occluder_use(const JsonReader& use);
 std::vector<MotionPose> read_motion(const JsonReader& list);
+Refine read_refine(const JsonReader& refine);
 Edit read_edit(const JsonReader& edit);
 
 nlohmann::ordered_json written(const Vec3& v);
@@ -35,6 +36,7 @@ nlohmann::ordered_json written(const MotionPose& pose);
 nlohmann::ordered_json written(const OccluderUse& use);
 nlohmann::ordered_json written(const Handle& handle);
 nlohmann::ordered_json written(const Anchors& anchors);
+nlohmann::ordered_json written(const Refine& refine);
 nlohmann::ordered_json written(const Edit& edit);
 
 } // namespace anvil

@@ -58,6 +58,9 @@ void write_options(const Edit& edit, Json& result) {
     if (edit.least_squares) {
         result["least_squares"] = true;
     }
+    if (edit.refine) {
+        result["refine"] = written(*edit.refine);
+    }
     if (edit.amount != 1) {
         result["amount"] = edit.amount;
     }

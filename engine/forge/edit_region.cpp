@@ -13,23 +13,6 @@ struct HandleField {
     double radius;
 };
 
-std::vector<SurfacePoint> sources_of(const Edit& edit, size_t handle, const SurfacePoint& handle_point,
-                                     const std::string& place, SurfaceState& surface) {
-    for (size_t a = 0; a < edit.anchors.size(); ++a) {
-        if (edit.anchors[a].handle != handle) {
-            continue;
-        }
-        std::vector<SurfacePoint> sources;
-        for (size_t i = 0; i < edit.anchors[a].at.size(); ++i) {
-            const std::string where =
-                place + ".anchors[" + std::to_string(a) + "].at[" + std::to_string(i) + "]";
-            sources.push_back(surface.resolve(edit.anchors[a].at[i], where));
-        }
-        return sources;
-    }
-    return {handle_point};
-}
-
 /// Half of the largest finite distance, the default radius of influence.
 double half_reach(const DistanceField& field, const std::string& place) {
     double largest = 0;
@@ -64,20 +47,6 @@ std::vector<uint32_t> region_vertices(const std::vector<HandleField>& fields,
     }
     sort_unique(vertices);
     return vertices;
-}
-
-/// Ascending, each once.
-std::vector<uint32_t> pinned_vertices(const Edit& edit, const std::string& place, SurfaceState& surface) {
-    std::vector<uint32_t> pinned;
-    for (size_t i = 0; i < edit.pinned.size(); ++i) {
-        const SurfacePoint point =
-            surface.resolve(edit.pinned[i], place + ".pinned[" + std::to_string(i) + "]");
-        for (const VertexWeight& w : surface.weights_of(point)) {
-            pinned.push_back(w.vertex);
-        }
-    }
-    sort_unique(pinned);
-    return pinned;
 }
 
 /// Index of vertex v in the ascending list, or its size.
@@ -130,6 +99,36 @@ std::string method_name(Metric metric, const DistanceField& field) {
 }
 
 } // namespace
+
+std::vector<SurfacePoint> sources_of(const Edit& edit, size_t handle, const SurfacePoint& handle_point,
+                                     const std::string& place, SurfaceState& surface) {
+    for (size_t a = 0; a < edit.anchors.size(); ++a) {
+        if (edit.anchors[a].handle != handle) {
+            continue;
+        }
+        std::vector<SurfacePoint> sources;
+        for (size_t i = 0; i < edit.anchors[a].at.size(); ++i) {
+            const std::string where =
+                place + ".anchors[" + std::to_string(a) + "].at[" + std::to_string(i) + "]";
+            sources.push_back(surface.resolve(edit.anchors[a].at[i], where));
+        }
+        return sources;
+    }
+    return {handle_point};
+}
+
+std::vector<uint32_t> pinned_vertices(const Edit& edit, const std::string& place, SurfaceState& surface) {
+    std::vector<uint32_t> pinned;
+    for (size_t i = 0; i < edit.pinned.size(); ++i) {
+        const SurfacePoint point =
+            surface.resolve(edit.pinned[i], place + ".pinned[" + std::to_string(i) + "]");
+        for (const VertexWeight& w : surface.weights_of(point)) {
+            pinned.push_back(w.vertex);
+        }
+    }
+    sort_unique(pinned);
+    return pinned;
+}
 
 double EditRegion::weight(size_t j, uint32_t v) const {
     const size_t at = place_of(vertices, v);

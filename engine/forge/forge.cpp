@@ -3,9 +3,11 @@
 #include "engine/core/error.h"
 #include "engine/forge/edit_motion.h"
 #include "engine/forge/edit_region.h"
+#include "engine/forge/refine_edit.h"
 #include "engine/forge/surface_state.h"
 #include "engine/forge/volume.h"
 #include "engine/occluder/occluder_motion.h"
+#include "engine/refine/point_vertices.h"
 
 #include <algorithm>
 #include <chrono>
@@ -33,8 +35,8 @@ class StageTimer {
 class Forger {
   public:
     Forger(const Mesh& mesh, const Recipe& recipe, Backend& backend, Log& log, Progress& progress)
-        : mesh_(mesh), recipe_(recipe), backend_(backend), log_(log), progress_(progress) {
-        result_.positions = mesh.positions;
+        : file_(mesh), history_(mesh), recipe_(recipe), backend_(backend), log_(log), progress_(progress) {
+        result_.positions = file_.positions;
         result_.moved.assign(mesh.vertex_count(), false);
         result_.weights.assign(mesh.vertex_count(), 0.0F);
         const Box box = bounds(mesh);
@@ -45,10 +47,8 @@ class Forger {
     ForgeResult run() {
         result_.report.device = backend_.device_name();
         result_.report.driver = backend_.driver_name();
-        result_.report.vertices = mesh_.vertex_count();
-        result_.report.faces = mesh_.polygon_count();
-        if (is_closed(mesh_)) {
-            volume_ = enclosed_volume(mesh_, result_.positions);
+        if (is_closed(mesh())) {
+            volume_ = enclosed_volume(mesh(), result_.positions);
         }
         try {
             build_models();
@@ -60,11 +60,17 @@ class Forger {
             throw InputError(recipe_.file + ": " + error.what());
         }
         progress_.report("forge", 1);
+        result_.report.vertices = mesh().vertex_count();
+        result_.report.faces = mesh().polygon_count();
+        result_.parents = history_.parents();
         result_.report.warnings = log_.warnings;
         return std::move(result_);
     }
 
   private:
+    /// The mesh as refinement has left it, before any edit.
+    const Mesh& mesh() const { return result_.refined ? *result_.refined : file_; }
+
     StageSeconds& seconds() { return result_.report.seconds; }
 
     void build_models() {
@@ -106,7 +112,16 @@ class Forger {
     void apply(const Edit& edit, const std::string& place) {
         EditReport report;
         report.kind = edit.kind == EditKind::translate ? "translate" : "rotate";
-        const EditRegion region = measure_region(edit, place);
+        if (edit.refine && edit.refine->criterion != RefineCriterion::shape) {
+            throw InputError(place +
+                             ".refine.criterion: \"space\" and \"both\" are not yet supported by this "
+                             "version; use \"shape\"");
+        }
+        const size_t points_added = edit.refine ? make_points_vertices(edit, place) : 0;
+        EditRegion region = measure_region(edit, place);
+        if (edit.refine) {
+            region = refine_region(edit, region, place, points_added, report);
+        }
         report.radii = region.radii;
         report.region = region.vertices.size();
         report.distance_methods = region.methods;
@@ -121,12 +136,65 @@ class Forger {
         result_.report.edits.push_back(std::move(report));
     }
 
+    size_t make_points_vertices(const Edit& edit, const std::string& place) {
+        const StageTimer timer(seconds().refine);
+        const std::vector<SurfacePoint> points = points_of(edit, place, surface());
+        if (std::all_of(points.begin(), points.end(), is_vertex)) {
+            return 0;
+        }
+        PointVertices made = make_vertices(mesh(), points);
+        const size_t added = made.refined.parents.size();
+        adopt(std::move(made.refined));
+        return added;
+    }
+
+    EditRegion refine_region(const Edit& edit, const EditRegion& region, const std::string& place,
+                             size_t points_added, EditReport& report) {
+        RefineState state;
+        {
+            const StageTimer timer(seconds().distance);
+            state = start_refinement(edit, region, place, mesh(), result_.positions, surface());
+        }
+        const StageTimer timer(seconds().refine);
+        const std::vector<uint32_t> pinned = pinned_vertices(edit, place, surface());
+        const double angle_before = least_angle(mesh().triangles, result_.positions, region.vertices);
+        const auto criterion = make_shape_criterion();
+        Refinement refinement = refine(mesh().triangles, std::move(state), *criterion,
+                                       options_of(*edit.refine, mesh().vertex_count()), progress_);
+        EditRegion refined = region;
+        if (refinement.report.added > 0) {
+            adopt(divided(mesh(), std::move(refinement.state.parents), refinement.faces));
+            refined = region_after(region, refinement.state, pinned);
+        }
+        report.refine = summary_of(refinement.report, points_added);
+        report.refine->min_angle_before = angle_before;
+        report.refine->min_angle_after = least_angle(mesh().triangles, result_.positions, refined.vertices);
+        return refined;
+    }
+
+    /// The mesh from here on.
+    void adopt(RefinedMesh refined) {
+        for (const VertexParents& p : refined.parents) {
+            result_.positions.push_back(between(result_.positions[p.a], result_.positions[p.b], p.place));
+            result_.moved.push_back(result_.moved[p.a] || result_.moved[p.b]);
+            result_.weights.push_back(
+                between(result_.weights[p.a], result_.weights[p.b], static_cast<float>(p.place)));
+        }
+        history_.add(refined);
+        result_.refined = std::move(refined.mesh);
+        surface_.reset(); // it knows the mesh before
+    }
+
+    SurfaceState& surface() {
+        if (!surface_) {
+            surface_.emplace(mesh(), result_.positions, history_);
+        }
+        return *surface_;
+    }
+
     EditRegion measure_region(const Edit& edit, const std::string& place) {
         const StageTimer timer(seconds().distance);
-        if (!surface_) {
-            surface_.emplace(mesh_, result_.positions);
-        }
-        return find_region(edit, place, *surface_);
+        return find_region(edit, place, surface());
     }
 
     DeformInput prepare_input(const Edit& edit, const EditRegion& region, const std::string& place) {
@@ -248,12 +316,12 @@ class Forger {
             return;
         }
         const StageTimer timer(seconds().deform);
-        std::vector<bool> in_region(mesh_.vertex_count(), false);
+        std::vector<bool> in_region(mesh().vertex_count(), false);
         for (uint32_t v : region.vertices) {
             in_region[v] = true;
         }
         std::vector<Triangle> triangles;
-        for (const Triangle& t : mesh_.triangles) {
+        for (const Triangle& t : mesh().triangles) {
             if (in_region[t[0]] || in_region[t[1]] || in_region[t[2]]) {
                 triangles.push_back(t);
             }
@@ -267,7 +335,7 @@ class Forger {
         }
         const double before = *volume_;
         if (report.moved > 0) {
-            volume_ = enclosed_volume(mesh_, result_.positions);
+            volume_ = enclosed_volume(mesh(), result_.positions);
         }
         report.volume = VolumeChange{before, *volume_};
     }
@@ -283,7 +351,8 @@ class Forger {
         }
     }
 
-    const Mesh& mesh_;
+    const Mesh& file_;
+    RefinementHistory history_;
     const Recipe& recipe_;
     Backend& backend_;
     Log& log_;

@@ -7,18 +7,25 @@
 #include "engine/edit/recipe.h"
 #include "engine/forge/report.h"
 #include "engine/mesh/mesh.h"
+#include "engine/refine/refined_mesh.h"
 
+#include <optional>
 #include <vector>
 
 namespace anvil {
 
+/// Vectors over vertices cover those of `refined` where it is set, the mesh's own else.
 struct ForgeResult {
     std::vector<Vec3>
         positions;           ///< of the mesh's vertices after all edits; unmoved ones bit for bit as before
     std::vector<bool> moved; ///< vertices that any edit moved
     std::vector<float>
-        weights;        ///< largest |phi| of any handle of any edit at each vertex, at most 1: the region
-    ForgeReport report; ///< its load and write seconds are the caller's to fill
+        weights; ///< largest |phi| of any handle of any edit at each vertex, at most 1: the region
+    /// The mesh with the vertices that refinement added, old ones first, as it is before any edit; absent if
+    /// none were added.
+    std::optional<Mesh> refined;
+    std::vector<VertexParents> parents; ///< of the added vertices
+    ForgeReport report;                 ///< its load and write seconds are the caller's to fill
 };
 
 /// Applies the recipe's edits in order to the mesh, each evaluated on what the one before left; the recipe's

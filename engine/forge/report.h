@@ -35,6 +35,15 @@ struct VolumeChange {
     double after = 0;
 };
 
+/// What refinement did; angles in degrees, of the triangles in the region before the edit moved them.
+struct RefineSummary {
+    size_t added = 0;
+    double max_error = 0;   ///< of the edges that remain, or a bound of it; in the criterion's unit
+    std::string stopped_by; ///< "tolerance", "min_edge" or "max_vertices"
+    double min_angle_before = 0;
+    double min_angle_after = 0;
+};
+
 struct EditReport {
     std::string kind;  ///< "translate" or "rotate"
     size_t region = 0; ///< vertices that the edit can move
@@ -47,6 +56,7 @@ struct EditReport {
     std::vector<std::string> distance_methods; ///< per handle: "approximate", "exact" or "euclidean"
     StepCounts steps;
     size_t samples = 0;
+    std::optional<RefineSummary> refine;  ///< absent where the edit does not refine
     std::optional<ContactReport> contact; ///< absent without occluders
     std::optional<VolumeChange> volume;   ///< absent for open meshes
 };

@@ -21,6 +21,21 @@ Json contact_json(const ContactReport& c) {
         {"contact_vertices", c.contact_vertices}};
 }
 
+Json refine_json(const std::optional<RefineSummary>& r) {
+    if (!r) {
+        return {{"added", 0},
+                {"max_error", nullptr},
+                {"stopped_by", nullptr},
+                {"min_angle_before", nullptr},
+                {"min_angle_after", nullptr}};
+    }
+    return {{"added", r->added},
+            {"max_error", number(r->max_error)},
+            {"stopped_by", r->stopped_by},
+            {"min_angle_before", number(r->min_angle_before)},
+            {"min_angle_after", number(r->min_angle_after)}};
+}
+
 Json handles_json(const EditReport& edit) {
     Json handles = Json::array();
     for (size_t j = 0; j < edit.target_errors.size(); ++j) {
@@ -45,11 +60,7 @@ Json edit_json(const EditReport& e) {
                    {"max", e.steps.max},
                    {"limit_reached", e.steps.limit_reached}}},
                  {"samples", e.samples}};
-    json["refine"] = {{"added", 0},
-                      {"max_error", nullptr},
-                      {"stopped_by", nullptr},
-                      {"min_angle_before", nullptr},
-                      {"min_angle_after", nullptr}};
+    json["refine"] = refine_json(e.refine);
     json["occluder"] = contact_json(e.contact.value_or(ContactReport{}));
     json["volume"] = e.volume ? Json{{"before", number(e.volume->before)}, {"after", number(e.volume->after)}}
                               : Json(nullptr);

@@ -13,32 +13,31 @@ std::string range(size_t count) {
 } // namespace
 
 SurfacePoint SurfaceState::at_vertex(uint32_t vertex, const std::string& place) {
-    if (vertex >= mesh_.vertex_count()) {
+    const size_t count = history_.first_mesh().vertex_count();
+    if (vertex >= count) {
         throw InputError(place + ": vertex " + std::to_string(vertex) + " is out of range: the mesh has " +
-                         std::to_string(mesh_.vertex_count()) + " vertices (" + range(mesh_.vertex_count()) +
-                         ")");
+                         std::to_string(count) + " vertices (" + range(count) + ")");
     }
     return vertex_point(mesh_, vertex);
 }
 
 SurfacePoint SurfaceState::at_face(const FaceAddress& address, const std::string& place) const {
-    if (address.face >= mesh_.polygon_count()) {
+    const Mesh& file = history_.first_mesh();
+    if (address.face >= file.polygon_count()) {
         throw InputError(place + ": face " + std::to_string(address.face) +
-                         " is out of range: the mesh has " + std::to_string(mesh_.polygon_count()) +
-                         " faces (" + range(mesh_.polygon_count()) + ")");
+                         " is out of range: the mesh has " + std::to_string(file.polygon_count()) +
+                         " faces (" + range(file.polygon_count()) + ")");
     }
-    const size_t first = mesh_.first_triangle(address.face);
-    const size_t count = mesh_.first_triangle(address.face + size_t{1}) - first;
+    const size_t first = file.first_triangle(address.face);
+    const size_t count = file.first_triangle(address.face + size_t{1}) - first;
     if (address.triangle >= count) {
         throw InputError(place + ": triangle " + std::to_string(address.triangle) +
                          " is out of range: face " + std::to_string(address.face) + " has " +
                          std::to_string(count) + " (" + range(count) + ")");
     }
     const auto& b = address.barycentric;
-    SurfacePoint point;
-    point.triangle = static_cast<uint32_t>(first + address.triangle);
-    point.barycentric = Vec3(b[0], b[1], b[2]);
-    return snapped(point);
+    return history_.find(mesh_.triangles, static_cast<uint32_t>(first + address.triangle),
+                         Vec3(b[0], b[1], b[2]));
 }
 
 SurfacePoint SurfaceState::near(const Vec3& point, const std::string& place) {

@@ -6,6 +6,7 @@
 #include "engine/mesh/mesh.h"
 #include "engine/mesh/search_tree.h"
 #include "engine/mesh/surface_point.h"
+#include "engine/refine/refined_places.h"
 
 #include <memory>
 #include <optional>
@@ -17,9 +18,11 @@ namespace anvil {
 
 /// One mesh at one set of positions, both of which must outlive it unchanged. The search tree and the
 /// distance solver, O(mesh) each, are built when first asked for and then kept. Not for several threads.
+/// `history`: what refinement made of the file's mesh, to which addresses belong, until it is this one.
 class SurfaceState {
   public:
-    SurfaceState(const Mesh& mesh, std::span<const Vec3> positions) : mesh_(mesh), positions_(positions) {}
+    SurfaceState(const Mesh& mesh, std::span<const Vec3> positions, const RefinementHistory& history)
+        : mesh_(mesh), positions_(positions), history_(history) {}
 
     /// `place` begins the message, e.g. "edits[0].handles[1].at".
     /// @throws InputError if an index is out of range or the mesh has no surface to be near to.
@@ -42,6 +45,7 @@ class SurfaceState {
 
     const Mesh& mesh_;
     std::span<const Vec3> positions_;
+    const RefinementHistory& history_;
     std::unique_ptr<SearchTree> tree_;
     std::optional<GeodesicSolver> solver_;
 };

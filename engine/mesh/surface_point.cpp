@@ -23,6 +23,11 @@ SurfacePoint snapped(const SurfacePoint& point) {
     return {point.triangle, sum == 1 ? b : b / sum, point.vertex};
 }
 
+bool is_vertex(const SurfacePoint& point) {
+    const Vec3& b = point.barycentric;
+    return point.triangle == no_index || std::max({b.x, b.y, b.z}) == 1;
+}
+
 Vec3 position(const Mesh& mesh, std::span<const Vec3> positions, const SurfacePoint& point) {
     Vec3 sum(0);
     for (const VertexWeight& entry : vertex_weights(mesh, point)) {

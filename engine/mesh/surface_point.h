@@ -40,6 +40,9 @@ inline constexpr double barycentric_snap = 1e-9;
 /// whose largest weight is at least 1 - barycentric_snap becomes exactly that corner.
 SurfacePoint snapped(const SurfacePoint& point);
 
+/// Whether a snapped point is a vertex.
+bool is_vertex(const SurfacePoint& point);
+
 /// Position of `point` with the mesh's vertices at `positions` (same count as mesh.positions).
 Vec3 position(const Mesh& mesh, std::span<const Vec3> positions, const SurfacePoint& point);
 

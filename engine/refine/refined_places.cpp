@@ -33,9 +33,6 @@ Vec3 RootPlaces::within(const Triangle& corners, const Vec3& weights) {
     return size > 0 ? glm::inverse(parts) * weights : Vec3(-infinity);
 }
 
-RefinementHistory::RefinementHistory(const Mesh& mesh)
-    : first_vertices_(mesh.vertex_count()), first_triangles_(mesh.triangles) {}
-
 void RefinementHistory::add(const RefinedMesh& refined) {
     parents_.insert(parents_.end(), refined.parents.begin(), refined.parents.end());
     std::vector<uint32_t> roots(refined.roots.size());
@@ -50,7 +47,7 @@ SurfacePoint RefinementHistory::find(std::span<const Triangle> triangles, uint32
     if (roots_.empty()) {
         return snapped({first_triangle, weights});
     }
-    RootPlaces places(first_triangles_[first_triangle], first_vertices_, parents_);
+    RootPlaces places(mesh_.triangles[first_triangle], mesh_.vertex_count(), parents_);
     SurfacePoint best;
     double deepest = -infinity;
     for (uint32_t t = 0; t < triangles.size(); ++t) {

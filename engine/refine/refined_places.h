@@ -31,14 +31,15 @@ class RootPlaces {
 /// file keep their places.
 class RefinementHistory {
   public:
-    /// Of `mesh`, before any refinement.
-    explicit RefinementHistory(const Mesh& mesh);
+    /// `mesh`: before any refinement; must outlive this.
+    explicit RefinementHistory(const Mesh& mesh) : mesh_(mesh) {}
 
     /// After the current mesh was refined.
     void add(const RefinedMesh& refined);
 
-    size_t first_vertices() const { return first_vertices_; }
-    std::span<const VertexParents> parents() const { return parents_; }
+    const Mesh& first_mesh() const { return mesh_; }
+    /// Of all vertices added so far.
+    const std::vector<VertexParents>& parents() const { return parents_; }
 
     /// The point of the current mesh (with these triangles) at barycentrics of a triangle of the mesh before
     /// any refinement.
@@ -46,8 +47,7 @@ class RefinementHistory {
                       const Vec3& weights) const;
 
   private:
-    size_t first_vertices_;
-    std::vector<Triangle> first_triangles_;
+    const Mesh& mesh_;
     std::vector<VertexParents> parents_;
     std::vector<uint32_t> roots_; ///< per current triangle: the triangle at first; empty: all as at first
 };

@@ -1,0 +1,135 @@
+#include "engine/forge/refine_edit.h"
+
+#include <algorithm>
+
+namespace anvil {
+
+namespace {
+
+constexpr size_t default_limit = 1'000'000;
+
+std::vector<Vec3> places_of(std::span<const SurfacePoint> points, const SurfaceState& surface) {
+    std::vector<Vec3> places;
+    places.reserve(points.size());
+    for (const SurfacePoint& point : points) {
+        places.push_back(surface.position_of(point));
+    }
+    return places;
+}
+
+/// atan2 keeps its digits at angles near 0, where acos has none.
+double angle_at(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return std::atan2(glm::length(glm::cross(b - a, c - a)), glm::dot(b - a, c - a));
+}
+
+} // namespace
+
+std::vector<SurfacePoint> points_of(const Edit& edit, const std::string& place, SurfaceState& surface) {
+    std::vector<SurfacePoint> points;
+    for (size_t j = 0; j < edit.handles.size(); ++j) {
+        points.push_back(
+            surface.resolve(edit.handles[j].at, place + ".handles[" + std::to_string(j) + "].at"));
+        const auto sources = sources_of(edit, j, points.back(), place, surface);
+        points.insert(points.end(), sources.begin(), sources.end());
+    }
+    for (size_t i = 0; i < edit.pinned.size(); ++i) {
+        points.push_back(surface.resolve(edit.pinned[i], place + ".pinned[" + std::to_string(i) + "]"));
+    }
+    return points;
+}
+
+RefineState start_refinement(const Edit& edit, const EditRegion& region, const std::string& place,
+                             const Mesh& mesh, std::span<const Vec3> positions, SurfaceState& surface) {
+    RefineState state{{positions.begin(), positions.end()}, {}, {}};
+    for (size_t j = 0; j < edit.handles.size(); ++j) {
+        const SurfacePoint handle =
+            surface.resolve(edit.handles[j].at, place + ".handles[" + std::to_string(j) + "].at");
+        const auto sources = sources_of(edit, j, handle, place, surface);
+        const std::vector<Vec3> places = places_of(sources, surface);
+        const Metric metric = edit.handles[j].metric.value_or(edit.metric);
+        const double reach = needed_reach(mesh.triangles, positions, places, region.radii[j]);
+        HandleField field{region.shapes[j], region.radii[j], 0, {}};
+        for (size_t a = 0; a < sources.size(); ++a) {
+            AnchorField anchor;
+            anchor.distances =
+                surface.distances({&sources[a], 1}, metric, edit.method, reach).dense(positions.size());
+            if (metric == Metric::euclidean) {
+                anchor.straight_from = places[a];
+            }
+            field.anchors.push_back(std::move(anchor));
+        }
+        state.handles.push_back(std::move(field));
+    }
+    return state;
+}
+
+EditRegion region_after(const EditRegion& before, const RefineState& state,
+                        const std::vector<uint32_t>& pinned) {
+    EditRegion region = before;
+    region.vertices.clear();
+    for (uint32_t v = 0; v < state.positions.size(); ++v) {
+        const bool reached = std::any_of(state.handles.begin(), state.handles.end(), [v](const auto& handle) {
+            return handle.distance(v) <= handle.radius;
+        });
+        if (reached && !std::binary_search(pinned.begin(), pinned.end(), v)) {
+            region.vertices.push_back(v);
+        }
+    }
+    region.fields.clear();
+    for (const HandleField& handle : state.handles) {
+        for (const uint32_t v : region.vertices) {
+            region.fields.push_back(handle.distance(v) / handle.radius);
+        }
+    }
+    return region;
+}
+
+RefineOptions options_of(const Refine& refine, size_t vertex_count) {
+    RefineOptions options;
+    options.tolerance = refine.shape_tolerance;
+    options.min_edge = refine.min_edge;
+    options.max_vertices = refine.max_vertices.value_or(
+        static_cast<uint32_t>(std::min<size_t>(std::max(default_limit, 2 * vertex_count), no_index - 1)));
+    return options;
+}
+
+RefineSummary summary_of(const RefineReport& report, size_t points_added) {
+    RefineSummary summary;
+    summary.added = report.added + points_added;
+    summary.max_error = report.max_error;
+    switch (report.stopped_by) {
+    case RefineStop::tolerance:
+        summary.stopped_by = "tolerance";
+        break;
+    case RefineStop::min_edge:
+        summary.stopped_by = "min_edge";
+        break;
+    case RefineStop::max_vertices:
+        summary.stopped_by = "max_vertices";
+        break;
+    }
+    return summary;
+}
+
+double least_angle(std::span<const Triangle> triangles, std::span<const Vec3> positions,
+                   const std::vector<uint32_t>& vertices) {
+    std::vector<bool> chosen(positions.size(), false);
+    for (const uint32_t v : vertices) {
+        chosen[v] = true;
+    }
+    double least = infinity;
+    for (const Triangle& t : triangles) {
+        if (!chosen[t[0]] && !chosen[t[1]] && !chosen[t[2]]) {
+            continue;
+        }
+        double least_here = infinity;
+        for (int i = 0; i < 3; ++i) {
+            least_here = std::min(
+                least_here, angle_at(positions[t[i]], positions[t[(i + 1) % 3]], positions[t[(i + 2) % 3]]));
+        }
+        least = least_here > 0 ? std::min(least, least_here) : least;
+    }
+    return std::isfinite(least) ? glm::degrees(least) : 0;
+}
+
+} // namespace anvil
