@@ -54,8 +54,7 @@ class GeodesicSolver {
     DistanceField solve(std::span<const SurfacePoint> sources, double radius = infinity,
                         DistanceMethod method = DistanceMethod::automatic) const;
 
-    /// The same for points, polylines and whole triangles. `exact` is exact to rounding for points; lines add
-    /// up to 1e-8 of their pieces' lengths.
+    /// The same for points, polylines and whole triangles. `exact` is exact to rounding.
     /// @throws InputError also if two points that follow each other in a polyline share no triangle.
     DistanceField solve(const DistanceSources& sources, double radius = infinity,
                         DistanceMethod method = DistanceMethod::automatic) const;

@@ -1,380 +1,255 @@
 #include "engine/distance/exact_windows.h"
 
-#include <numbers>
-
 namespace anvil {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
-// A window is only dropped if it is worse by more than rounding, or it and an equal one could drop each
-// other.
-constexpr double worse = 1 - 1e-12;
-constexpr double better = 1 - 1e-15;
+constexpr std::array<uint32_t, 3> next_corner = {1, 2, 0};
 constexpr double clearly_worse = 1 + 1e-11;
-constexpr double least_width = 1e-13; // of the side: narrower windows are rounding
-constexpr double cover_slack = 1e-9;  // of the side: a corner at a window's rim is covered by both neighbours
-constexpr double far_behind = 1e7;    // of a line's length
-// Radians. Two ways to a vertex whose lengths differ by rounding arrive in directions that differ by its
-// root: a shadow is known no better.
-constexpr double wedge_slack = 1e-6;
+constexpr double cover_slack = 1e-9; // of the side: a corner at a window's rim is covered by both neighbours
 
-// Real meshes need 5 to 100 windows a vertex; the worst case is quadratic.
+// Real meshes need 5 to 170 windows a vertex; the worst case is quadratic.
 constexpr size_t most_windows_a_vertex = 2000;
 constexpr size_t most_windows_anyway = 1 << 20;
 
-/// Where the ray from the source through `at` on the base meets the side that leaves the origin along
-/// `along`, whose line passes the source at `depth`; infinite where the ray runs beside it.
-double hit(double at, const PlanePoint& source, const PlanePoint& along, double depth) {
-    const double descent = depth - at * along.y;
-    return descent > 0 ? at * source.y / descent : infinity;
-}
-
 } // namespace
 
-/// Rays [begin, end] that leave a triangle through `side`, in the frame of the side turned around.
-struct ExactWindows::Child {
-    uint32_t side;
-    double begin, end;
-    PlanePoint source;
-    double offset;
-    PlanePoint corner; ///< of the triangle left, opposite the side
-    /// The rim that the rays pass last as seen from that corner: a way from the corner to it crosses them
-    /// all. No such rim where the source lies in the triangle.
-    enum class Rim { none, begin, end } rim;
-};
-
 ExactWindows::ExactWindows(const TriangleGraph& graph, const WindowTable& table)
-    : graph_(graph), table_(table), vertices_(graph.vertex_count()), best_(graph.corner_vertex.size()),
+    : graph_(graph), table_(table), distance_(graph.vertex_count(), infinity), arrival_(graph.vertex_count()),
+      best_(graph.corner_vertex.size()),
       queue_(table.mean_length, 4 * graph.longest_side + table.mean_length) {}
 
-void ExactWindows::push(const Window& window, double key) {
-    // The distance to a line is rounded in units of its far centre and may come out below 0.
-    key = std::max(key, 0.0);
-    queue_.push(key, window);
-    ++windows_;
-}
-
 void ExactWindows::arrive(uint32_t vertex, double distance, uint32_t side, double angle) {
-    Arrival& arrival = vertices_[vertex];
-    if (arrival.run != run_) {
+    if (distance_[vertex] == infinity) {
         reached_.push_back(vertex);
     }
-    arrival = {distance, angle, side, run_};
+    distance_[vertex] = distance;
+    arrival_[vertex] = {angle, side};
     if (side != no_index && table_.bend[vertex] != WindowTable::Bend::never) {
-        Window bend;
-        bend.vertex = vertex;
-        bend.offset = distance;
-        push(bend, distance);
+        queue_.push(distance, {{}, {}, distance, vertex, Kind::bend});
+        ++windows_;
     }
 }
 
-/// Whether paths over the ends of the side (length long) beat every ray of the window.
-bool ExactWindows::is_dominated(uint32_t from, uint32_t to, double length, const Window& window) const {
-    return known(from) + window.end < window.at_end * worse ||
-           known(to) + (length - window.begin) < window.at_begin * worse;
+ExactWindows::Exit ExactWindows::exit_of(uint32_t side) const {
+    const WindowTable::Face& face = table_.faces[side / 3];
+    const uint32_t k = side % 3;
+    return {side, face.across[k], face.vertex[(k + 1) % 3], face.vertex[k], face.length[k], true};
 }
 
-void ExactWindows::enter(const Child& child) {
-    const uint32_t side = child.side;
-    const double length = graph_.side_length[side];
-    const PlanePoint& s = child.source;
-    Window window;
-    window.begin = child.begin;
-    window.end = child.end;
-    window.source = s;
-    window.offset = child.offset;
-    window.at_begin = child.offset + std::sqrt((child.begin - s.x) * (child.begin - s.x) + s.y * s.y);
-    window.at_end = child.offset + std::sqrt((child.end - s.x) * (child.end - s.x) + s.y * s.y);
-    if (is_dominated(graph_.to(side), graph_.from(side), length, window)) {
+/// Faces without area lead rays around a corner of no angle and back, without end and no farther. Of windows
+/// that are equal but for rounding only the first enters such a face.
+bool ExactWindows::came_before(const Window& window) {
+    const auto distance = [](const Window& w, double x) {
+        return w.kind == Kind::point ? PointRays{w.source, w.offset}.distance(x)
+                                     : ParallelRays{w.source, w.offset}.distance(x);
+    };
+    std::vector<Window>& earlier = into_thin_[window.place];
+    const bool known = std::any_of(earlier.begin(), earlier.end(), [&](const Window& w) {
+        const double slack = cover_slack * (window.rim[1] - window.rim[0]);
+        return w.kind == window.kind && std::abs(w.offset - window.offset) <= tie * std::abs(w.offset) &&
+               w.rim[0] <= window.rim[0] + slack && w.rim[1] >= window.rim[1] - slack &&
+               std::all_of(window.rim.begin(), window.rim.end(),
+                           [&](double x) { return distance(w, x) <= distance(window, x) * (1 + tie); });
+    });
+    if (!known) {
+        earlier.push_back(window);
+    }
+    return known;
+}
+
+/// Rays [begin, end] through the side that they leave by, unless paths over its ends beat them all.
+template <typename Rays>
+void ExactWindows::pass(const Rays& rays, double begin, double end, const Exit& exit) {
+    if (rays.exceeds(end, distance_[exit.near_vertex] + end) ||
+        rays.exceeds(begin, distance_[exit.far_vertex] + (exit.length - begin))) {
         return;
     }
-    if (child.rim != Child::Rim::none) {
-        const bool at_begin = child.rim == Child::Rim::begin;
-        const double rim_distance = at_begin ? window.at_begin : window.at_end;
-        const double over_corner = known(graph_.apex(side));
-        const double dx = child.corner.x - (at_begin ? child.begin : child.end);
-        if (over_corner < rim_distance &&
-            over_corner + std::sqrt(dx * dx + child.corner.y * child.corner.y) < rim_distance * worse) {
+    constexpr Kind kind = std::is_same_v<Rays, PointRays> ? Kind::point : Kind::parallel;
+    const double key = std::max(rays.least(begin, end), 0.0);
+    const Rays mirrored = rays.mirrored(exit.length);
+    // Every other side of the edge, whatever its direction.
+    for (uint32_t link = exit.across; link != no_index && link >> 3 != exit.side;) {
+        const uint32_t other = link >> 3;
+        bool same_way = (link & WindowTable::same_way) != 0;
+        if ((link & WindowTable::more) != 0) {
+            same_way = graph_.from(other) == graph_.from(exit.side);
+        }
+        Window window{{begin, end}, rays.source, rays.offset, other, kind};
+        if (exit.turned == same_way) {
+            window.rim = {exit.length - end, exit.length - begin};
+            window.source = mirrored.source;
+            window.offset = mirrored.offset;
+        }
+        if ((link & WindowTable::thin) == 0 || !came_before(window)) {
+            queue_.push(key, window);
+            ++windows_;
+        }
+        link = (link & WindowTable::more) != 0 ? table_.faces[other / 3].across[other % 3] : no_index;
+    }
+}
+
+template void ExactWindows::pass(const PointRays&, double, double, const Exit&);
+template void ExactWindows::pass(const ParallelRays&, double, double, const Exit&);
+
+/// The rays [first, last] of a base that leave by the side at its start, at `along` from it; up to its far
+/// end if they reach the corner. `over_corner` is the distance of the base's other end.
+template <typename Rays>
+void ExactWindows::leave(const Rays& rays, double first, double last, bool to_corner, double base,
+                         const PlanePoint& along, double over_corner, const Exit& exit) {
+    // Rays along a side, or behind it by rounding, do not leave through it.
+    const double depth = rays.depth(along);
+    if (!(exit.length > 0 && depth > 0)) {
+        return;
+    }
+    const double begin = first > 0 ? rays.hit(first, along, depth) : 0;
+    const double end = to_corner ? exit.length : std::min(exit.length, rays.hit(last, along, depth));
+    if (!(end - begin > least_width * exit.length)) {
+        return;
+    }
+    const Rays out = rays.turned(along, depth);
+    // A way from the base's other end to the rim that the rays pass last crosses them all.
+    const double rim = out.distance(begin);
+    if (over_corner < rim) {
+        const double dx = base * along.x - begin, dy = base * along.y;
+        if (over_corner + std::sqrt(dx * dx + dy * dy) < rim * (1 - tie)) {
             return;
         }
     }
-    const double key = s.x < child.begin ? window.at_begin
-                       : s.x > child.end ? window.at_end
-                                         : child.offset + s.y;
-    // Every other side of the edge, whatever its direction.
-    for (uint32_t link = graph_.across[side]; link != no_index && link >> 1 != side;
-         link = graph_.across[link >> 1]) {
-        const uint32_t other = link >> 1;
-        Window entered = window;
-        entered.side = other;
-        if (graph_.from(other) == graph_.from(side)) {
-            entered.begin = length - window.end;
-            entered.end = length - window.begin;
-            entered.source.x = length - s.x;
-            std::swap(entered.at_begin, entered.at_end);
-        }
-        push(entered, key);
-    }
+    pass(out, begin, end, exit);
 }
 
-void ExactWindows::cross(const Window& w) {
-    const uint32_t base = w.side, right = TriangleGraph::next(base), left = TriangleGraph::previous(base);
-    const double length = graph_.side_length[base];
-    if (is_dominated(graph_.from(base), graph_.to(base), length, w)) {
-        return;
+/// Of two windows over one corner only the better one splits; the worse keeps its rays on its own side of the
+/// better path to the corner, which they cannot usefully cross.
+ExactWindows::Split ExactWindows::split(const Window& w, double crossing, double distance) {
+    Best& best = best_[w.place];
+    if (best.run != run_ || distance <= best.distance) {
+        best = {distance, crossing, run_};
+    } else if (distance > best.distance * clearly_worse) {
+        if (crossing < best.crossing) {
+            return {w.rim[1], std::max(w.rim[0], best.crossing)};
+        }
+        return {std::min(w.rim[1], best.crossing), w.rim[0]};
     }
-    const PlanePoint c = table_.apex[base];
-    const PlanePoint s = w.source;
-    // All on one line: the corner is met where it lies.
-    const double crossing = s.y + c.y > 0 ? (s.x * c.y + c.x * s.y) / (s.y + c.y) : c.x;
-    bool goes_left = crossing >= w.begin, goes_right = crossing <= w.end;
-    double right_begin = w.begin, left_end = w.end;
-    const double slack = cover_slack * length;
-    if (crossing >= w.begin - slack && crossing <= w.end + slack) {
-        const uint32_t corner = graph_.from(left);
-        const double distance = w.offset + std::sqrt((c.x - s.x) * (c.x - s.x) + (c.y + s.y) * (c.y + s.y));
-        if (distance < known(corner) * better) {
-            const double bx = s.x - c.x, by = -s.y - c.y;
-            arrive(corner, distance, left, std::atan2(c.y * bx - c.x * by, -c.x * bx - c.y * by));
+    return {w.rim[1], w.rim[0]};
+}
+
+/// Crosses a triangle whose corner no ray comes near, as almost all windows of a dense mesh do. On which side
+/// they pass it is anybody's guess, the processor's too: nothing here branches on that.
+/// @return false if this is no such window
+bool ExactWindows::cross_beside(const Window& w) {
+    constexpr std::array<double, 2> zero_one = {0, 1}, sign_of = {1, -1};
+    const uint32_t k = w.place % 3, right = next_corner[k], left = next_corner[right];
+    const WindowTable::Face& face = table_.faces[w.place / 3];
+    const double base = face.length[k], slack = cover_slack * base;
+    const double middle = 0.5 * (w.rim[0] + w.rim[1]);
+    const double crossing = PointRays{w.source, w.offset}.crossing(
+        {face.length[left] * face.along[k].x, face.length[left] * face.along[k].y});
+    if (std::abs(crossing - middle) <= w.rim[1] - middle + slack) {
+        return false;
+    }
+    // Rays that leave on the right are seen from the other end of the base.
+    const uint32_t mirrored = crossing < middle ? 1 : 0;
+    const std::array<uint32_t, 2> near_corner = {k, right}, exit_side = {left, right};
+    const uint32_t near = near_corner[mirrored], exit = exit_side[mirrored], over = near_corner[1 - mirrored];
+    const double sign = sign_of[mirrored], shift = zero_one[mirrored] * base;
+    const PointRays rays{{shift + sign * w.source.x, w.source.y}, w.offset};
+    const PlanePoint along = face.along[near];
+    const double length = face.length[exit], depth = rays.depth(along);
+    const double begin = rays.hit(shift + sign * w.rim[mirrored], along, depth);
+    const double end = std::min(length, rays.hit(shift + sign * w.rim[1 - mirrored], along, depth));
+    if (!(depth > 0 && end - begin > least_width * length)) {
+        return true;
+    }
+    const PointRays out = rays.turned(along, depth);
+    // Of the ways that may beat all rays, over the base's other end and over the ends of the side, the first
+    // is almost always the best; the others are tried where a window comes near a corner.
+    const double dx = base * along.x - begin, dy = base * along.y;
+    const double spare = out.distance(begin) * (1 - tie) - distance_[face.vertex[over]];
+    const bool beaten = (spare > 0) & (spare * spare > dx * dx + dy * dy);
+    const uint32_t link = face.across[exit];
+    if (beaten | (link == no_index)) {
+        return true;
+    }
+    if ((link & (WindowTable::more | WindowTable::thin)) != 0) {
+        return false;
+    }
+    const double key = out.least(begin, end);
+    const uint32_t flip = mirrored ^ (link & WindowTable::same_way);
+    const std::array<double, 2> rims = {begin, end};
+    const double sign_out = sign_of[flip], shift_out = zero_one[flip] * length;
+    queue_.push(key, {{shift_out + sign_out * rims[flip], shift_out + sign_out * rims[1 - flip]},
+                      {shift_out + sign_out * out.source.x, depth},
+                      w.offset,
+                      link >> 3,
+                      Kind::point});
+    ++windows_;
+    return true;
+}
+
+template <typename Rays>
+void ExactWindows::cross(const Window& w) {
+    const uint32_t k = w.place % 3, right = next_corner[k], left = next_corner[right];
+    const WindowTable::Face& face = table_.faces[w.place / 3];
+    const Rays rays{w.source, w.offset};
+    const double base = face.length[k];
+    const uint32_t corner = face.vertex[left];
+    const PlanePoint& along = face.along[k];
+    const PlanePoint at{face.length[left] * along.x, face.length[left] * along.y};
+    const double crossing = rays.crossing(at);
+    const bool goes_left = crossing >= w.rim[0], goes_right = crossing <= w.rim[1];
+    Split part{w.rim[1], w.rim[0]};
+    const double slack = cover_slack * base;
+    if (crossing >= w.rim[0] - slack && crossing <= w.rim[1] + slack) {
+        const double distance = rays.distance(at);
+        if (distance < distance_[corner] * better) {
+            const PlanePoint back = rays.back(at);
+            arrive(corner, distance, w.place - k + left,
+                   std::atan2(at.y * back.x - at.x * back.y, -at.x * back.x - at.y * back.y));
         }
         if (goes_left && goes_right) {
-            // Of two windows over one corner only the better one splits; the worse keeps its rays on its own
-            // side of the better path to the corner, which they cannot usefully cross.
-            Best& best = best_[base];
-            if (best.run != run_ || distance <= best.distance) {
-                best = {distance, crossing, run_};
-            } else if (distance > best.distance * clearly_worse) {
-                if (crossing < best.crossing) {
-                    goes_right = best.crossing < w.end;
-                    right_begin = std::max(right_begin, best.crossing);
-                } else {
-                    goes_left = best.crossing > w.begin;
-                    left_end = std::min(left_end, best.crossing);
-                }
-            }
+            part = split(w, crossing, distance);
         }
     }
-    if (goes_left && graph_.side_length[left] > 0) {
-        const double side = graph_.side_length[left];
-        const PlanePoint u{c.x / side, c.y / side};
-        // Rays along a side, or behind it by rounding, do not leave through it.
-        const double depth = s.x * u.y + s.y * u.x;
-        const double begin = w.begin > 0 ? hit(w.begin, s, u, depth) : 0;
-        const double end = crossing <= left_end ? side : std::min(side, hit(left_end, s, u, depth));
-        if (depth > 0 && end - begin > least_width * side) {
-            enter({left,
-                   begin,
-                   end,
-                   {s.x * u.x - s.y * u.y, depth},
-                   w.offset,
-                   {length * u.x, length * u.y},
-                   Child::Rim::begin});
-        }
+    if (goes_left) {
+        leave(rays, w.rim[0], part.left_end, crossing <= part.left_end, base, along,
+              distance_[face.vertex[right]],
+              {w.place - k + left, face.across[left], face.vertex[k], corner, face.length[left], true});
     }
-    if (goes_right && graph_.side_length[right] > 0) {
+    if (goes_right) {
         // The same seen from the other end of the base.
-        const double side = graph_.side_length[right];
-        const PlanePoint u{(length - c.x) / side, c.y / side};
-        const PlanePoint m{length - s.x, s.y};
-        const double first = length - w.end, last = length - right_begin;
-        const double depth = m.x * u.y + m.y * u.x;
-        const double begin = first > 0 ? hit(first, m, u, depth) : 0;
-        const double end = crossing >= right_begin ? side : std::min(side, hit(last, m, u, depth));
-        if (depth > 0 && end - begin > least_width * side) {
-            enter({right,
-                   side - end,
-                   side - begin,
-                   {side - (m.x * u.x - m.y * u.y), depth},
-                   w.offset,
-                   {side - length * u.x, length * u.y},
-                   Child::Rim::end});
-        }
-    }
-}
-
-void ExactWindows::follow_edges(uint32_t vertex) {
-    const double offset = known(vertex);
-    for (const uint32_t side : graph_.sides_leaving(vertex)) {
-        const uint32_t next = TriangleGraph::next(side), arriving = TriangleGraph::previous(side);
-        const double out = offset + graph_.side_length[side];
-        if (out < known(graph_.from(next)) * better) {
-            arrive(graph_.from(next), out, next, table_.angle[next]);
-        }
-        const double back = offset + graph_.side_length[arriving];
-        if (back < known(graph_.from(arriving)) * better) {
-            arrive(graph_.from(arriving), back, arriving, 0);
-        }
-    }
-}
-
-/// Rays from a vertex at angles [first, last] from `side`, which leaves it, through the opposite side.
-void ExactWindows::emit(uint32_t side, double first, double last, double offset) {
-    const uint32_t opposite = TriangleGraph::next(side);
-    const double length = graph_.side_length[opposite];
-    const double corner = table_.angle[side];
-    const PlanePoint at{length - table_.apex[opposite].x, table_.apex[opposite].y};
-    // The frame runs against the opposite side: its start is seen at the corner's angle, its end at 0.
-    const auto place = [&](double angle) {
-        return graph_.side_length[side] * std::sin(angle) / std::sin(angle + table_.angle[opposite]);
-    };
-    const double end = first > 0 ? std::min(length, length - place(first)) : length;
-    const double begin = last < corner ? std::max(0.0, length - place(last)) : 0;
-    if (end - begin > least_width * length) {
-        enter({opposite, begin, end, at, offset, at, Child::Rim::none});
-    }
-}
-
-/// Rays into the part of the fan that no straight path over this vertex's neighbourhood reaches: at least pi
-/// from the ray back on both sides, or on one where the other ends at the boundary.
-void ExactWindows::emit_shadow(uint32_t vertex) {
-    const Arrival arrival = vertices_[vertex];
-    const bool closed = table_.bend[vertex] == WindowTable::Bend::saddle;
-    const double first = pi - wedge_slack;
-    const double last = closed ? table_.total[vertex] - pi + wedge_slack : infinity;
-    // Counterclockwise from the ray back; `at` is the angle of `side`.
-    double at = -arrival.angle;
-    uint32_t side = arrival.side;
-    while (side < TriangleGraph::tangled && at < last) {
-        const double corner = table_.angle[side];
-        const double from = std::max(first - at, 0.0), to = std::min(last - at, corner);
-        if (to > from) {
-            emit(side, from, to, arrival.distance);
-        }
-        at += corner;
-        side = graph_.twin(TriangleGraph::previous(side));
-    }
-    if (closed) {
-        return;
-    }
-    // Clockwise: `at` is the angle from the ray back to `side`.
-    at = arrival.angle;
-    side = arrival.side;
-    while (true) {
-        const uint32_t twin = graph_.twin(side);
-        if (twin >= TriangleGraph::tangled) {
-            return;
-        }
-        side = TriangleGraph::next(twin);
-        const double corner = table_.angle[side];
-        const double to = std::min(corner, at + corner - first);
-        if (to > 0) {
-            emit(side, 0, to, arrival.distance);
-        }
-        at += corner;
-    }
-}
-
-void ExactWindows::bend_at(uint32_t vertex) {
-    follow_edges(vertex);
-    if (vertices_[vertex].side == no_index || table_.bend[vertex] == WindowTable::Bend::anywhere) {
-        for (const uint32_t side : graph_.sides_leaving(vertex)) {
-            emit(side, 0, table_.angle[side], known(vertex));
-        }
-    } else {
-        emit_shadow(vertex);
-    }
-}
-
-/// A source in a triangle sends rays through its sides: each of its three seeds does the side that it leaves
-/// along.
-void ExactWindows::start_in_triangle(const Seed& seed) {
-    if (seed.distance < known(seed.vertex)) {
-        arrive(seed.vertex, seed.distance, seed.side, seed.angle);
-    }
-    const double height = seed.distance * std::sin(seed.angle);
-    const double length = graph_.side_length[seed.side];
-    if (seed.of_line) {
-        return;
-    }
-    if (height > 0 && length > 0) {
-        const PlanePoint apex = table_.apex[seed.side];
-        const PlanePoint source{length - seed.distance * std::cos(seed.angle), height};
-        enter({seed.side, 0, length, source, 0, {length - apex.x, apex.y}, Child::Rim::none});
-    }
-}
-
-/// A line sends parallel rays to both sides: those of a point so far behind that they bend by some 1e-8 of
-/// the line's length, which is also what the far point loses to rounding.
-void ExactWindows::start_line(const Segment& line) {
-    const double dx = line.to.x - line.from.x, dy = line.to.y - line.from.y;
-    const double length = std::hypot(dx, dy);
-    const double behind = far_behind * length;
-    const std::array<PlanePoint, 3> corners = laid_out(graph_, line.base);
-    const std::array<uint32_t, 3> sides = {line.base, TriangleGraph::next(line.base),
-                                           TriangleGraph::previous(line.base)};
-    for (size_t k = 0; k < 3; ++k) {
-        // Frame of the side turned around: from its end to its start, the triangle below at y > 0.
-        const PlanePoint& origin = corners[(k + 1) % 3];
-        const double side = graph_.side_length[sides[k]];
-        if (!(side > 0)) {
-            continue;
-        }
-        const PlanePoint u{(corners[k].x - origin.x) / side, (corners[k].y - origin.y) / side};
-        const auto in_frame = [&](double x, double y) {
-            return PlanePoint{x * u.x + y * u.y, x * u.y - y * u.x};
-        };
-        const PlanePoint from = in_frame(line.from.x - origin.x, line.from.y - origin.y);
-        const PlanePoint to = in_frame(line.to.x - origin.x, line.to.y - origin.y);
-        for (const double sign : {1.0, -1.0}) {
-            const PlanePoint n = in_frame(-sign * dy / length, sign * dx / length);
-            // Rays that leave through this side go up in its frame's -y.
-            if (!(n.y < -1e-9)) {
-                continue;
-            }
-            const double at_from = from.x - from.y * n.x / n.y, at_to = to.x - to.y * n.x / n.y;
-            const double begin = std::max(0.0, std::min(at_from, at_to));
-            const double end = std::min(side, std::max(at_from, at_to));
-            const PlanePoint source{0.5 * (from.x + to.x) - behind * n.x,
-                                    0.5 * (from.y + to.y) - behind * n.y};
-            if (end - begin > least_width * side) {
-                enter({sides[k], begin, end, source, -behind, source, Child::Rim::none});
-            }
-        }
+        leave(
+            rays.mirrored(base), base - w.rim[1], base - part.right_begin, crossing >= part.right_begin, base,
+            face.along[right], distance_[face.vertex[k]],
+            {w.place - k + right, face.across[right], face.vertex[right], corner, face.length[right], false});
     }
 }
 
 void ExactWindows::clear() {
     if (++run_ == 0) {
-        std::fill(vertices_.begin(), vertices_.end(), Arrival{});
         std::fill(best_.begin(), best_.end(), Best{});
         run_ = 1;
     }
+    for (const uint32_t vertex : reached_) {
+        distance_[vertex] = infinity;
+    }
     reached_.clear();
+    into_thin_.clear();
     queue_.clear();
     windows_ = 0;
-}
-
-void ExactWindows::add(const SourceParts& sources) {
-    queue_.rewind();
-    std::vector<uint32_t> at_vertices;
-    for (const Seed& seed : sources.seeds) {
-        if (seed.side == no_index && known(seed.vertex) > 0) {
-            arrive(seed.vertex, 0, no_index, 0);
-            at_vertices.push_back(seed.vertex);
-        }
-    }
-    for (const uint32_t source : at_vertices) {
-        bend_at(source);
-    }
-    for (const Seed& seed : sources.seeds) {
-        if (seed.side != no_index) {
-            start_in_triangle(seed);
-        }
-    }
-    for (const Segment& line : sources.segments) {
-        start_line(line);
-    }
 }
 
 bool ExactWindows::grow(double radius) {
     queue_.open_until(radius);
     while (!queue_.empty()) {
         const Window window = queue_.pop();
-        if (window.side != no_index) {
-            cross(window);
-        } else if (window.offset == vertices_[window.vertex].distance) {
-            bend_at(window.vertex);
+        if (window.kind == Kind::point) {
+            if (!cross_beside(window)) {
+                cross<PointRays>(window);
+            }
+        } else if (window.kind == Kind::parallel) {
+            cross<ParallelRays>(window);
+        } else if (window.offset == distance_[window.place]) {
+            bend_at(window.place);
         }
         if (windows_ > most_windows_anyway + most_windows_a_vertex * reached_.size()) {
             return false;

@@ -3,15 +3,18 @@
 
 #include "engine/distance/bucket_queue.h"
 #include "engine/distance/segment_seeds.h"
+#include "engine/distance/window_rays.h"
 #include "engine/distance/window_table.h"
+
+#include <unordered_map>
 
 namespace anvil {
 
 /// A workspace over one surface, kept between runs; a run touches only what it reaches.
-/// A window is the part of an edge that straight rays from one source (or one bend) enter a triangle through.
-/// Windows cross triangles, split at the opposite corner, and are dropped where known vertex distances prove
-/// that none of their rays is shortest; rays start anew where paths can bend. Distances are exact for the
-/// polyhedral surface up to rounding.
+/// A window is the part of an edge that straight rays from one source (a point, a line, or one bend) enter a
+/// triangle through. Windows cross triangles, split at the opposite corner, and are dropped where known
+/// vertex distances prove that none of their rays is shortest; rays start anew where paths can bend.
+/// Distances are exact for the polyhedral surface up to rounding.
 class ExactWindows {
   public:
     ExactWindows(const TriangleGraph& graph, const WindowTable& table);
@@ -29,49 +32,64 @@ class ExactWindows {
 
     /// Vertices that have a value, in order of arrival; values beyond the radius need not be final.
     std::span<const uint32_t> reached() const { return reached_; }
-    double distance(uint32_t vertex) const { return vertices_[vertex].distance; }
+    double distance(uint32_t vertex) const { return distance_[vertex]; }
     size_t windows() const { return windows_; }
 
   private:
+    enum class Kind : uint32_t { point, parallel, bend };
     struct Window {
-        uint32_t side = no_index; ///< entered through it, its frame; no_index: paths bend at `vertex`
-        uint32_t vertex = no_index;
-        double begin = 0, end = 0;
-        PlanePoint source; ///< y >= 0: below the side
-        double offset = 0; ///< distance of the source itself
-        double at_begin = 0, at_end = 0;
+        std::array<double, 2> rim{}; ///< first and last ray, along the side
+        PlanePoint source;           ///< with `offset`: the rays, by kind
+        double offset = 0;
+        uint32_t place = no_index; ///< the side entered through, its frame; a bend: the vertex
+        Kind kind = Kind::point;
     };
     struct Arrival {
-        double distance = 0;
         double angle = 0;         ///< from `side` counterclockwise to the ray back
         uint32_t side = no_index; ///< leaves the vertex; none: the vertex is a source
-        uint32_t run = 0;
     };
     struct Best {
         double distance = 0, crossing = 0;
         uint32_t run = 0;
     };
-    struct Child;
+    /// Rays up to `left_end` leave on the left, those from `right_begin` on the right.
+    struct Split {
+        double left_end, right_begin;
+    };
+    /// A side that rays leave a triangle through, in the frame from its near end.
+    struct Exit {
+        uint32_t side, across; ///< as in WindowTable::Face
+        uint32_t near_vertex, far_vertex;
+        double length;
+        bool turned; ///< the frame runs against the side
+    };
 
-    double known(uint32_t vertex) const {
-        return vertices_[vertex].run == run_ ? vertices_[vertex].distance : infinity;
-    }
-    bool is_dominated(uint32_t from, uint32_t to, double length, const Window& window) const;
     void arrive(uint32_t vertex, double distance, uint32_t side, double angle);
-    void start_in_triangle(const Seed& seed);
-    void start_line(const Segment& line);
-    void push(const Window& window, double key);
-    void enter(const Child& child);
+    bool cross_beside(const Window& window);
+    template <typename Rays>
     void cross(const Window& window);
+    Split split(const Window& window, double crossing, double distance);
+    template <typename Rays>
+    void leave(const Rays& rays, double first, double last, bool to_corner, double base,
+               const PlanePoint& along, double over_corner, const Exit& exit);
+    template <typename Rays>
+    void pass(const Rays& rays, double begin, double end, const Exit& exit);
+    bool came_before(const Window& window);
+    Exit exit_of(uint32_t side) const;
+
     void bend_at(uint32_t vertex);
     void follow_edges(uint32_t vertex);
     void emit(uint32_t side, double first, double last, double offset);
     void emit_shadow(uint32_t vertex);
+    void start_in_triangle(const Seed& seed);
+    void start_line(const Segment& line);
 
     const TriangleGraph& graph_;
     const WindowTable& table_;
-    std::vector<Arrival> vertices_;
+    std::vector<double> distance_; ///< per vertex, infinite where not reached
+    std::vector<Arrival> arrival_;
     std::vector<Best> best_; ///< per side: the best window that covers the opposite corner
+    std::unordered_map<uint32_t, std::vector<Window>> into_thin_; ///< by side, of thin faces
     BucketQueue<Window> queue_;
     std::vector<uint32_t> reached_;
     uint32_t run_ = 0;

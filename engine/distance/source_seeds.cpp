@@ -67,11 +67,8 @@ PlacedPoint placed(const TriangleGraph& graph, const SurfacePoint& point, const 
 std::array<PlanePoint, 3> laid_out(const TriangleGraph& graph, uint32_t base) {
     const double length = graph.side_length[base];
     const double left = graph.side_length[TriangleGraph::previous(base)];
-    PlanePoint apex{left, 0};
-    if (length > 0) {
-        apex = apex_over(length, left, graph.side_length[TriangleGraph::next(base)]);
-    }
-    return {PlanePoint{0, 0}, PlanePoint{length, 0}, apex};
+    const PlanePoint along = direction_of_apex(graph, base);
+    return {PlanePoint{0, 0}, PlanePoint{length, 0}, PlanePoint{left * along.x, left * along.y}};
 }
 
 std::optional<PlanePoint> place_in(const TriangleGraph& graph, const PlacedPoint& point, uint32_t base) {

@@ -13,15 +13,29 @@ double power_of_two_near(double extent) {
     return std::ldexp(1.0, std::clamp(std::ilogb(extent), -1000, 1000));
 }
 
-void measure_sides(TriangleGraph& graph, std::span<const Vec3> positions) {
+/// 0, 1 or 2.
+uint32_t shortest_side(const TriangleGraph& graph, uint32_t triangle) {
+    const double* length = &graph.side_length[3 * size_t{triangle}];
+    return static_cast<uint32_t>(std::min_element(length, length + 3) - length);
+}
+
+void measure(TriangleGraph& graph, std::span<const Vec3> positions) {
     graph.side_length.resize(graph.corner_vertex.size());
+    graph.shape.resize(graph.triangle_count());
     const double inverse = 1 / graph.unit;
-    const std::vector<uint32_t>& mesh_vertex = graph.numbering.mesh_vertex;
     parallel_for(graph.triangle_count(), 1 << 14, [&](size_t begin, size_t end) {
-        for (size_t side = 3 * begin; side < 3 * end; ++side) {
-            const Vec3& from = positions[mesh_vertex[graph.corner_vertex[side]]];
-            const Vec3& to = positions[mesh_vertex[graph.to(static_cast<uint32_t>(side))]];
-            graph.side_length[side] = glm::length((to - from) * inverse);
+        for (size_t t = begin; t < end; ++t) {
+            std::array<Vec3, 3> along;
+            for (size_t k = 0; k < 3; ++k) {
+                const auto side = static_cast<uint32_t>(3 * t + k);
+                const Vec3& from = positions[graph.numbering.mesh_vertex[graph.from(side)]];
+                const Vec3& to = positions[graph.numbering.mesh_vertex[graph.to(side)]];
+                along[k] = (to - from) * inverse;
+                graph.side_length[side] = glm::length(along[k]);
+            }
+            const uint32_t k = shortest_side(graph, static_cast<uint32_t>(t));
+            graph.shape[t] = {-glm::dot(along[k], along[(k + 2) % 3]),
+                              glm::length(glm::cross(along[k], along[(k + 2) % 3]))};
         }
     });
     for (const double length : graph.side_length) {
@@ -82,6 +96,18 @@ void link_edges(TriangleGraph& graph) {
 
 } // namespace
 
+PlanePoint direction_of_apex(const TriangleGraph& graph, uint32_t side) {
+    const uint32_t triangle = side / 3, shortest = shortest_side(graph, triangle);
+    const TriangleGraph::Shape& shape = graph.shape[triangle];
+    const double* length = &graph.side_length[3 * size_t{triangle}];
+    // The dot product at each corner from the one at the start of the shortest side, where none cancels.
+    const uint32_t corner = (side % 3 + 3 - shortest) % 3;
+    const double next_to_it = corner == 0 ? 0 : length[corner == 1 ? shortest : (shortest + 2) % 3];
+    const double dot = corner == 0 ? shape.dot : next_to_it * next_to_it - shape.dot;
+    const double size = std::hypot(dot, shape.double_area);
+    return size > 0 ? PlanePoint{dot / size, shape.double_area / size} : PlanePoint{1, 0};
+}
+
 void link_vertices(TriangleGraph& graph, size_t vertex_count) {
     std::vector<uint32_t>& begin = graph.leaving_begin;
     begin.assign(vertex_count + 1, 0);
@@ -114,7 +140,7 @@ TriangleGraph make_triangle_graph(std::span<const Triangle> triangles, std::span
                 graph.numbering.new_vertex[triangles[t][k]];
         }
     }
-    measure_sides(graph, positions);
+    measure(graph, positions);
     link_vertices(graph, positions.size());
     link_edges(graph);
     return graph;

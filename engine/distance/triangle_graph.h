@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/distance/numbering.h"
+#include "engine/distance/unfold.h"
 
 #include <span>
 #include <vector>
@@ -18,6 +19,13 @@ struct TriangleGraph {
     double unit = 1;                     ///< world length of 1
     std::vector<uint32_t> corner_vertex; ///< 3 per triangle
     std::vector<double> side_length;     ///< 3 per triangle
+    /// Per triangle, from the positions: of needles and caps the lengths know angles to the root of rounding
+    /// only. Triangles made by flips have none here.
+    struct Shape {
+        double dot;         ///< of the shortest side and the one before it turned around
+        double double_area; ///< twice the area
+    };
+    std::vector<Shape> shape;
     /// The next side of the same edge, in a ring over all of them: 2 * side, + 1 if it runs the same way;
     /// no_index where no other side shares the edge. Triangles with a corner twice are not linked.
     std::vector<uint32_t> across;
@@ -49,6 +57,10 @@ struct TriangleGraph {
         return {leaving.data() + leaving_begin[vertex], leaving.data() + leaving_begin[vertex + 1]};
     }
 };
+
+/// Direction of the third corner of a triangle as seen from the corner that `side` leaves, the side along +x;
+/// (1, 0) where two corners coincide. Not for triangles made by flips.
+PlanePoint direction_of_apex(const TriangleGraph& graph, uint32_t side);
 
 /// Lists `leaving` anew from corner_vertex.
 void link_vertices(TriangleGraph& graph, size_t vertex_count);

@@ -12,6 +12,10 @@ namespace {
 // narrower than what windows see of the corners beside them.
 constexpr double saddle_slack = 1e-13;
 
+// Radians. Around a corner less wide than this rays come back with their distances unchanged but for
+// rounding.
+constexpr double thin_angle = 1e-6;
+
 WindowTable::Bend bend_at(const TriangleGraph& graph, uint32_t vertex, double total) {
     const std::span<const uint32_t> sides = graph.sides_leaving(vertex);
     if (sides.empty()) {
@@ -28,24 +32,39 @@ WindowTable::Bend bend_at(const TriangleGraph& graph, uint32_t vertex, double to
     }
 }
 
+bool is_thin(const TriangleGraph& graph, uint32_t triangle) {
+    const double* length = &graph.side_length[3 * size_t{triangle}];
+    const double longest = std::max({length[0], length[1], length[2]});
+    return graph.shape[triangle].double_area <= thin_angle * longest * longest;
+}
+
+uint32_t link_across(const TriangleGraph& graph, uint32_t side) {
+    const uint32_t link = graph.across[side];
+    if (link == no_index) {
+        return no_index;
+    }
+    const uint32_t other = link >> 1;
+    const bool more = graph.across[other] >> 1 != side;
+    return 8 * other + (is_thin(graph, other / 3) ? WindowTable::thin : 0) + (more ? WindowTable::more : 0) +
+           ((link & 1) != 0 ? WindowTable::same_way : 0);
+}
+
 } // namespace
 
 WindowTable make_window_table(const TriangleGraph& graph) {
     WindowTable table;
     const size_t sides = graph.corner_vertex.size();
-    table.apex.resize(sides);
+    table.faces.resize(graph.triangle_count());
     table.angle.resize(sides);
-    parallel_for(sides, 1 << 14, [&](size_t begin, size_t end) {
-        for (size_t s = begin; s < end; ++s) {
-            const auto side = static_cast<uint32_t>(s);
-            const double left = graph.side_length[TriangleGraph::previous(side)];
-            if (graph.side_length[side] > 0) {
-                table.apex[side] =
-                    apex_over(graph.side_length[side], left, graph.side_length[TriangleGraph::next(side)]);
-            } else {
-                table.apex[side] = {left, 0};
-            }
-            table.angle[side] = left > 0 ? std::atan2(table.apex[side].y, table.apex[side].x) : 0;
+    parallel_for(graph.triangle_count(), 1 << 13, [&](size_t begin, size_t end) {
+        for (auto side = static_cast<uint32_t>(3 * begin); side < 3 * end; ++side) {
+            WindowTable::Face& face = table.faces[side / 3];
+            const PlanePoint along = direction_of_apex(graph, side);
+            face.length[side % 3] = graph.side_length[side];
+            face.along[side % 3] = along;
+            face.vertex[side % 3] = graph.from(side);
+            face.across[side % 3] = link_across(graph, side);
+            table.angle[side] = std::atan2(along.y, along.x);
         }
     });
     table.bend.resize(graph.vertex_count());
