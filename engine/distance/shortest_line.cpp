@@ -16,10 +16,6 @@ PlacedPoint at_vertex(uint32_t vertex) {
     return point;
 }
 
-double distance_between(const PlanePoint& a, const PlanePoint& b) {
-    return std::hypot(a.x - b.x, a.y - b.y);
-}
-
 /// Steps down a distance field to its source, across one triangle at a time.
 class Descent {
   public:
@@ -58,7 +54,9 @@ class Descent {
             return;
         }
         if (goal) {
-            offer(distance_between(*at, *goal), triangle, source_, true);
+            // Nothing is shorter than the straight way, whatever the field says by its errors.
+            offer(-infinity, triangle, source_, true);
+            return;
         }
         for (uint32_t side = first; side < first + 3; ++side) {
             const bool holds_here =
