@@ -8,6 +8,7 @@
 #include "engine/forge/volume.h"
 #include "engine/occluder/occluder_motion.h"
 #include "engine/refine/point_vertices.h"
+#include "engine/refine/space_criterion.h"
 
 #include <algorithm>
 #include <chrono>
@@ -112,11 +113,6 @@ class Forger {
     void apply(const Edit& edit, const std::string& place) {
         EditReport report;
         report.kind = edit.kind == EditKind::translate ? "translate" : "rotate";
-        if (edit.refine && edit.refine->criterion != RefineCriterion::shape) {
-            throw InputError(place +
-                             ".refine.criterion: \"space\" and \"both\" are not yet supported by this "
-                             "version; use \"shape\"");
-        }
         const size_t points_added = edit.refine ? make_points_vertices(edit, place) : 0;
         EditRegion region = measure_region(edit, place);
         if (edit.refine) {
@@ -158,7 +154,7 @@ class Forger {
         const StageTimer timer(seconds().refine);
         const std::vector<uint32_t> pinned = pinned_vertices(edit, place, surface());
         const double angle_before = least_angle(mesh().triangles, result_.positions, region.vertices);
-        const auto criterion = make_shape_criterion();
+        const auto criterion = criterion_of(edit, region, place);
         Refinement refinement = refine(mesh().triangles, std::move(state), *criterion,
                                        options_of(*edit.refine, mesh().vertex_count()), progress_);
         EditRegion refined = region;
@@ -170,6 +166,62 @@ class Forger {
         report.refine->min_angle_before = angle_before;
         report.refine->min_angle_after = least_angle(mesh().triangles, result_.positions, refined.vertices);
         return refined;
+    }
+
+    /// Criteria in space run the whole edit, which the points added so far do not change.
+    std::unique_ptr<EdgeCriterion> criterion_of(const Edit& edit, const EditRegion& region,
+                                                const std::string& place) {
+        const Refine& settings = *edit.refine;
+        if (settings.criterion == RefineCriterion::shape) {
+            return make_shape_criterion();
+        }
+        DeformInput input = prepare_input(edit, region, place);
+        Log unheard; // the edit itself says it again
+        const DeformMotion motion =
+            find_motion(edit, region, result_.positions, origin_, place, input.occluders, unheard).motion;
+        MovePoints move = [this, input, motion, radii = region.radii](
+                              std::span<const Vec3> places, const std::vector<double>& distances) mutable {
+            return moved_points(input, motion, radii, places, distances);
+        };
+        return settings.criterion == RefineCriterion::space
+                   ? make_space_criterion(std::move(move))
+                   : make_both_criteria(settings.shape_tolerance, std::move(move), settings.space_tolerance);
+    }
+
+    /// Where the edit takes any points of the surface; `input` serves all calls.
+    std::vector<Vec3> moved_points(DeformInput& input, const DeformMotion& motion,
+                                   const std::vector<double>& radii, std::span<const Vec3> places,
+                                   const std::vector<double>& distances) {
+        const size_t n = places.size();
+        input.points.resize(n);
+        std::transform(places.begin(), places.end(), input.points.begin(),
+                       [this](const Vec3& p) { return p - origin_; });
+        input.fields.resize(distances.size());
+        for (size_t i = 0; i < distances.size(); ++i) {
+            input.fields[i] = distances[i] / radii[i / n];
+        }
+        find_start_distances(input);
+        const auto session = backend_.prepare(input);
+        session->update(motion);
+        const std::vector<PointResult> results = session->download();
+        std::vector<Vec3> ends(n);
+        std::vector<bool> inside(n);
+        for (size_t i = 0; i < n; ++i) {
+            ends[i] = input.points[i] + results[i].displacement;
+            inside[i] = (results[i].flags & kernel::f64::VERTEX_STARTED_INSIDE) != 0;
+        }
+        if (!input.occluders.empty() && !input.occluders.paper) {
+            finish_contact(input.occluders, input.points, inside, ends);
+        }
+        for (size_t i = 0; i < n; ++i) {
+            bool reached = false;
+            for (size_t f = i; f < input.fields.size(); f += n) {
+                reached = reached || input.fields[f] <= 1;
+            }
+            // What lies outside of the region stays, even where an occluder moves.
+            ends[i] = reached ? ends[i] + origin_ : places[i];
+        }
+        return ends;
     }
 
     /// The mesh from here on.

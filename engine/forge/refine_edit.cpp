@@ -6,6 +6,8 @@ namespace anvil {
 
 namespace {
 
+// Of the tolerance in space: shorter edges are not cut.
+constexpr double parting = 0.05;
 constexpr size_t default_limit = 1'000'000;
 
 std::vector<Vec3> places_of(std::span<const SurfacePoint> points, const SurfaceState& surface) {
@@ -86,8 +88,22 @@ EditRegion region_after(const EditRegion& before, const RefineState& state,
 
 RefineOptions options_of(const Refine& refine, size_t vertex_count) {
     RefineOptions options;
-    options.tolerance = refine.shape_tolerance;
     options.min_edge = refine.min_edge;
+    switch (refine.criterion) {
+    case RefineCriterion::shape:
+        options.tolerance = refine.shape_tolerance;
+        break;
+    case RefineCriterion::space:
+        options.tolerance = refine.space_tolerance;
+        break;
+    case RefineCriterion::both:
+        options.tolerance = 1;
+        break;
+    }
+    if (refine.criterion != RefineCriterion::shape) {
+        // Where an occluder parts the surface, two points close together end apart, however close they are.
+        options.min_edge = std::max(options.min_edge, parting * refine.space_tolerance);
+    }
     options.max_vertices = refine.max_vertices.value_or(
         static_cast<uint32_t>(std::min<size_t>(std::max(default_limit, 2 * vertex_count), no_index - 1)));
     return options;

@@ -40,6 +40,9 @@ class Refiner {
         while (!edges.empty()) {
             progress_.report("refine", 1 - 1 / (1.0 + static_cast<double>(report_.rounds)));
             std::vector<Split> splits = find_splits(edges);
+            if (splits.empty() && !full_) {
+                splits = find_face_splits();
+            }
             if (splits_everywhere_) {
                 faces = all_faces();
             }
@@ -132,6 +135,40 @@ class Refiner {
         return splits;
     }
 
+    /// Edges are within the tolerance; faces that are not are split at their longest edge.
+    std::vector<Split> find_face_splits() {
+        std::vector<Triangle> corners;
+        corners.reserve(mesh_.faces().size());
+        for (const EdgeMesh::Face& face : mesh_.faces()) {
+            corners.push_back(face.corners);
+        }
+        const std::vector<double> found = criterion_.measure_faces(state_, corners);
+        std::vector<Split> splits;
+        std::vector<char> taken(mesh_.edges().size(), 0);
+        face_error_ = 0;
+        for (size_t f = 0; f < found.size(); ++f) {
+            face_error_ = std::max(face_error_, found[f]);
+            const auto [edge, length] = longest_edge(mesh_.faces()[f]);
+            if (found[f] > options_.tolerance && edge != no_index && !taken[edge]) {
+                taken[edge] = 1;
+                add_split({edge, 0.5, found[f], no_index}, length, splits);
+            }
+        }
+        splits_everywhere_ = true; // the faces on the other side were not changed last
+        return splits;
+    }
+
+    std::pair<uint32_t, double> longest_edge(const EdgeMesh::Face& face) const {
+        std::pair<uint32_t, double> longest{no_index, 0};
+        for (const uint32_t edge : face.edges) {
+            const double length = edge == no_index ? 0 : span_of(edge).length;
+            if (length > longest.second) {
+                longest = {edge, length};
+            }
+        }
+        return longest;
+    }
+
     std::vector<uint32_t> whole_edges() const {
         std::vector<uint32_t> edges;
         for (uint32_t e = 0; e < mesh_.edges().size(); ++e) {
@@ -217,6 +254,7 @@ class Refiner {
                 report_.max_error = std::max(report_.max_error, errors_[e]);
             }
         }
+        report_.max_error = std::max(report_.max_error, face_error_);
         report_.added = state_.positions.size() - first_vertices_;
         report_.stopped_by = full_      ? RefineStop::max_vertices
                              : limited_ ? RefineStop::min_edge
@@ -236,6 +274,7 @@ class Refiner {
     RefineReport report_;
     std::vector<double> errors_;   ///< per edge, as last measured
     std::vector<uint32_t> labels_; ///< per vertex: the crease that it was put on
+    double face_error_ = 0;        ///< inside faces, as last measured
     bool splits_everywhere_ = false;
     bool limited_ = false;
     bool full_ = false;
@@ -249,18 +288,20 @@ bool comes_within(const Triangle& t, std::span<const Vec3> positions, const Vec3
 
 } // namespace
 
+std::vector<double> EdgeCriterion::measure_faces(const RefineState& /*state*/,
+                                                 std::span<const Triangle> /*faces*/) {
+    return {};
+}
+
 uint32_t RefineState::add_vertex(const VertexParents& p) {
     const double length = glm::distance(positions[p.a], positions[p.b]);
     const Vec3 place = between(positions[p.a], positions[p.b], p.place);
     for (HandleField& handle : handles) {
         for (AnchorField& anchor : handle.anchors) {
-            const double d0 = anchor.distances[p.a];
-            const double d1 = anchor.distances[p.b];
-            const bool reached = std::isfinite(d0) || std::isfinite(d1);
-            anchor.distances.push_back(anchor.straight_from ? glm::distance(*anchor.straight_from, place)
-                                       : reached
-                                           ? EdgeDistance(d0, d1, length, anchor.kind).at(p.place * length)
-                                           : infinity);
+            const auto& d = anchor.distances;
+            anchor.distances.push_back(anchor.straight_from
+                                           ? glm::distance(*anchor.straight_from, place)
+                                           : distance_between(d[p.a], d[p.b], length, p.place, anchor.kind));
         }
     }
     positions.push_back(place);

@@ -40,6 +40,9 @@ class EdgeCriterion {
     };
     virtual std::vector<Finding> measure(const RefineState& state, std::span<const EdgeSpan> edges,
                                          double enough) = 0;
+
+    /// The error inside each face, where edges do not tell it; empty: they do.
+    virtual std::vector<double> measure_faces(const RefineState& state, std::span<const Triangle> faces);
 };
 
 /// eps = max over handles of |phi_j(g_j(s) / R_j) - linear interpolation of its end values|: dimensionless.
@@ -60,7 +63,8 @@ struct Refinement {
 };
 
 /// Splits edges at their worst places, round by round, until every edge of the triangles that some handle
-/// reaches is within the tolerance or a limit stops it. A kink of a shape function at which some edge misses
+/// reaches is within the tolerance or a limit stops it; and faces within whose edges the criterion still
+/// finds an error at the middle of their longest edge. A kink of a shape function at which some edge misses
 /// the tolerance becomes a crease: all edges that cross it are split where they do, so that it is a chain of
 /// edges (vertices within 5e-7 of the radius count as on it). Distances have to be known up to
 /// needed_reach(); sources are vertices.

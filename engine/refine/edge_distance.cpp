@@ -85,4 +85,11 @@ std::array<double, 2> EdgeDistance::places_at(double distance) const {
     return places;
 }
 
+double distance_between(double d0, double d1, double length, double place, SourceKind kind) {
+    if (!std::isfinite(d0) && !std::isfinite(d1)) {
+        return infinity;
+    }
+    return length > 0 ? EdgeDistance(d0, d1, length, kind).at(place * length) : d0;
+}
+
 } // namespace anvil

@@ -42,4 +42,7 @@ class EdgeDistance {
     double turning_, least_, greatest_;
 };
 
+/// The distance at a place in [0, 1] of an edge: what a new vertex there gets. Infinite where both ends are.
+double distance_between(double d0, double d1, double length, double place, SourceKind kind);
+
 } // namespace anvil

@@ -302,6 +302,15 @@ double EdgeMeasure::climb(double from, double to, double sign) {
     return at_left > at_right ? left : right;
 }
 
+double EdgeMeasure::distance(const EdgeSpan& edge, double place) {
+    each_.clear();
+    for (const AnchorField& anchor : handle_.anchors) {
+        each_.push_back(distance_between(anchor.distances[edge.a], anchor.distances[edge.b], edge.length,
+                                         place, anchor.kind));
+    }
+    return handle_.blended(each_);
+}
+
 const std::vector<double>& EdgeMeasure::crossings(const EdgeSpan& edge, size_t level) {
     places_.clear();
     if (load(edge)) {

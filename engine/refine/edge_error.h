@@ -37,6 +37,12 @@ class EdgeMeasure {
     /// Inner places in (0, 1) where gamma is exactly that of the level, ascending.
     const std::vector<double>& crossings(const EdgeSpan& edge, size_t level);
 
+    /// Whether any place of the edge is within the radius.
+    bool reaches(const EdgeSpan& edge) { return load(edge); }
+
+    /// gamma at a place in [0, 1].
+    double distance(const EdgeSpan& edge, double place);
+
     const std::vector<ShapeLevel>& levels() const { return levels_; }
 
   private:

@@ -16,6 +16,10 @@ double slope_at_end(const ShapeSegmentD& p, double end) {
 
 } // namespace
 
+double HandleField::blended(std::span<const double> distances) const {
+    return distances.size() == 1 ? distances.front() : smooth_minimum(distances, blend);
+}
+
 double HandleField::distance(uint32_t vertex) const {
     if (anchors.size() == 1) {
         return anchors.front().distances[vertex];
@@ -25,7 +29,7 @@ double HandleField::distance(uint32_t vertex) const {
     for (const AnchorField& anchor : anchors) {
         each.push_back(anchor.distances[vertex]);
     }
-    return each.empty() ? infinity : smooth_minimum(each, blend);
+    return each.empty() ? infinity : blended(each);
 }
 
 std::vector<ShapeLevel> shape_levels(const HandleField& handle) {

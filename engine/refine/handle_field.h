@@ -5,6 +5,7 @@
 #include "engine/refine/edge_distance.h"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace anvil {
@@ -25,6 +26,8 @@ struct HandleField {
     double blend = 0;  ///< world units, >= 0
     std::vector<AnchorField> anchors;
 
+    /// gamma of a place at these distances from the anchors, at least one.
+    double blended(std::span<const double> distances) const;
     /// gamma at a vertex.
     double distance(uint32_t vertex) const;
 };

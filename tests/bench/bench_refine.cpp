@@ -1,0 +1,106 @@
+// Processor seconds (all threads together) that adaptive refinement takes: inserting alone, and all of it.
+//   bench_refine [SAMPLE:VERTICES]
+#include "engine/distance/distance.h"
+#include "engine/mesh/sample_shapes.h"
+#include "engine/refine/adaptive_refinement.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <numeric>
+#include <string>
+
+using namespace anvil;
+
+namespace {
+
+constexpr int repeats = 5;
+
+double median(std::vector<double> samples) {
+    std::sort(samples.begin(), samples.end());
+    return samples[samples.size() / 2];
+}
+
+/// Of this process: other work on the machine disturbs it least.
+template <typename Work>
+double seconds(const Work& work) {
+    const std::clock_t start = std::clock();
+    work();
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+RefineState state_of(const Mesh& mesh, uint32_t vertex, const std::string& preset, double radius) {
+    HandleField handle{ShapeFunction(preset_knots(preset)), radius, 0, {}};
+    const Vec3 place = mesh.positions[vertex];
+    const double reach = needed_reach(mesh.triangles, mesh.positions, {&place, 1}, radius);
+    const SurfacePoint source = vertex_point(mesh, vertex);
+    const DistanceField field = GeodesicSolver(mesh, mesh.positions).solve({&source, 1}, reach);
+    handle.anchors.push_back({field.dense(mesh.vertex_count()), SourceKind::point, std::nullopt});
+    return {mesh.positions, {handle}, {}};
+}
+
+/// Every edge split in its middle, with distances and attributes, no errors measured.
+void insert_everywhere(const Mesh& mesh, const RefineState& start) {
+    std::vector<uint32_t> all(mesh.triangles.size());
+    std::iota(all.begin(), all.end(), 0U);
+    std::vector<double> numbering, inserting, dividing;
+    size_t inserted = 0;
+    for (int i = 0; i < repeats; ++i) {
+        RefineState state = start;
+        std::optional<EdgeMesh> net;
+        numbering.push_back(seconds([&] { net.emplace(mesh.triangles, all, mesh.vertex_count()); }));
+        inserting.push_back(seconds([&] {
+            const auto edges = static_cast<uint32_t>(net->edges().size());
+            for (uint32_t e = 0; e < edges; ++e) {
+                const EdgeMesh::Edge edge = net->edges()[e];
+                net->mark(e, state.add_vertex({edge.a, edge.b, 0.5}));
+            }
+            net->split(all, [](uint32_t, uint32_t, uint32_t, uint32_t) { return true; });
+        }));
+        inserted = state.parents.size();
+        dividing.push_back(seconds([&] { divided(mesh, state.parents, net->faces()); }));
+    }
+    const double time = median(inserting);
+    std::printf(
+        "  every edge split: %zu vertices, numbering %.3f s, inserting %.3f s (%.2f M/s), mesh %.3f s; "
+        "all together %.2f M/s\n",
+        inserted, median(numbering), time, static_cast<double>(inserted) / time / 1e6, median(dividing),
+        static_cast<double>(inserted) / (time + median(numbering) + median(dividing)) / 1e6);
+}
+
+void refine_by_shape(const Mesh& mesh, const RefineState& start, double tolerance) {
+    std::vector<double> refining, dividing;
+    RefineReport report;
+    for (int i = 0; i < repeats; ++i) {
+        RefineState state = start;
+        Refinement result;
+        Progress progress;
+        const auto criterion = make_shape_criterion();
+        refining.push_back(seconds([&] {
+            result =
+                refine(mesh.triangles, std::move(state), *criterion, {tolerance, 0, 100'000'000}, progress);
+        }));
+        report = result.report;
+        dividing.push_back(seconds([&] { divided(mesh, result.state.parents, result.faces); }));
+    }
+    std::printf(
+        "  tolerance %g: %zu vertices in %zu rounds, largest error %.3g, refining %.3f s, mesh %.3f s\n",
+        tolerance, report.added, report.rounds, report.max_error, median(refining), median(dividing));
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    const std::string name = argc > 1 ? argv[1] : "hand:511000";
+    const size_t colon = name.find(':');
+    const Mesh mesh = make_sample(name.substr(0, colon), std::strtoul(name.c_str() + colon + 1, nullptr, 10));
+    std::setvbuf(stdout, nullptr, _IOLBF, 0);
+    std::printf("%s: %zu vertices; medians of %d\n", name.c_str(), mesh.vertex_count(), repeats);
+    const double radius = 0.3 * bounds(mesh).diagonal();
+    const RefineState start = state_of(mesh, static_cast<uint32_t>(mesh.vertex_count() / 2), "wave", radius);
+    insert_everywhere(mesh, start);
+    for (const double tolerance : {1e-3, 1e-5, 3e-6}) {
+        refine_by_shape(mesh, start, tolerance);
+    }
+    return 0;
+}
