@@ -102,9 +102,6 @@ TEST_CASE("A plateau takes at most 1.5 times the vertices that splitting the wor
             const size_t greedy = Greedy(mesh, handle).run(tolerance);
             INFO("plane of " << vertices << ", R " << radius << ": " << result.report.added << " for "
                              << greedy);
-            if (getenv("SHOW"))
-                WARN("plane of " << vertices << ", R " << radius << ": " << result.report.added << " for "
-                                 << greedy);
             CHECK(greedy > 100);
             CHECK(result.report.added <= 1.5 * greedy);
         }
