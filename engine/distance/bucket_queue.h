@@ -89,6 +89,13 @@ class BucketQueue {
         }
     }
 
+    /// The item that will be taken after `further` others, if it waits in the bucket being emptied and
+    /// nothing comes between; else null.
+    const Item* ahead(size_t further) const {
+        const std::vector<Item>& bucket = buckets_[current_ & (buckets_.size() - 1)];
+        return place_ + further < bucket.size() ? &bucket[place_ + further] : nullptr;
+    }
+
   private:
     struct Held {
         double key;

@@ -50,12 +50,31 @@ VertexFronts::VertexFronts(const FanTable& table)
     slack_ = static_cast<float>(table.mean_length);
 }
 
+/// A vertex that is reached marches soon: its spokes are on their way from the memory by then. Waiting for
+/// them, and for the fronts at their ends, was a fifth of the time of a march.
+void VertexFronts::fetch_spokes(const Front& front) const {
+    constexpr uint32_t spokes_a_line = 64 / sizeof(Spoke) + 1;
+    for (uint32_t i = 0; i < 3; ++i) { // as much as six or seven spokes take
+        __builtin_prefetch(table_.spokes.data() + front.first_spoke + i * spokes_a_line);
+    }
+}
+
+void VertexFronts::fetch_around_next() const {
+    if (const Waiting* const next = queue_.ahead(1)) {
+        const uint32_t end = fronts_[next->vertex + 1].first_spoke;
+        for (uint32_t i = fronts_[next->vertex].first_spoke; i < end; ++i) {
+            __builtin_prefetch(&fronts_[table_.spokes[i].vertex]);
+        }
+    }
+}
+
 void VertexFronts::accept(uint32_t vertex, float distance, float offset, float direction, uint32_t label,
                           uint32_t parents, float delay) {
     Front& front = fronts_[vertex];
     if (!is_reached(front)) {
         reached_.push_back(vertex);
         front.stamp = run_stamp_;
+        fetch_spokes(front);
     } else if (front.stamp + 2 * march_step >= run_stamp_ + run_step) {
         return;
     }
@@ -248,6 +267,7 @@ void VertexFronts::grow(double radius) {
     queue_.open_until(radius + slack_);
     while (!queue_.empty()) {
         const Waiting next = queue_.pop();
+        fetch_around_next();
         Front& front = fronts_[next.vertex];
         if (next.distance != front.distance || is_settled(front)) {
             continue;

@@ -50,6 +50,8 @@ class VertexFronts {
     static bool is_settled(const Front& front) { return (front.stamp & 1) != 0; }
     void accept(uint32_t vertex, float distance, float offset, float direction, uint32_t label,
                 uint32_t parents, float delay = 0);
+    void fetch_spokes(const Front& front) const;
+    void fetch_around_next() const;
     void march_from(uint32_t vertex);
     void update(uint32_t from, const Opposite& o);
     bool may_lower(const Front& a, const Front& corner, float length, float x, float y) const;
