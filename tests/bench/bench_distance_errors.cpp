@@ -36,6 +36,7 @@ const std::vector<Entry> own_meshes = {
     {"torus:5000@1,1,3", false}, {"hand:8000@1,5,1", true},      {"bust:8000@4,1,1", false},
     {"icosphere:642^2", true},   {"hand:1500^1@1,1,4", false},   {"cube:600^2", true},
     {"bust:1000^2", false},      {"cylinder:800@1,0.2,3", true}, {"icosphere:10242@1,1,0.2", false},
+    {"hand:1500@1,1,4", false},  {"cube:500@3,0.5,1", false},
 };
 
 const std::vector<Entry> real_meshes = {
