@@ -12,31 +12,37 @@ namespace {
 // A field farther than the nearest by so many widths no longer shows: exp(-20) = 2e-9.
 constexpr double widths_that_show = 20;
 
-std::vector<DistanceField> single_fields(const GeodesicSolver& solver, std::span<const SurfacePoint> anchors,
-                                         double radius, DistanceMethod method) {
-    std::vector<DistanceField> fields(anchors.size());
-    parallel_for(anchors.size(), 1, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-            fields[i] = solver.solve(anchors.subspan(i, 1), radius, method);
-        }
-    });
-    return fields;
+DistanceSources all_of(std::span<const DistanceSources> anchors) {
+    DistanceSources all;
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    for (const DistanceSources& anchor : anchors) {
+        append(all.points, anchor.points);
+        append(all.polylines, anchor.polylines);
+        append(all.triangles, anchor.triangles);
+    }
+    return all;
 }
 
-bool same_place(const SurfacePoint& a, const SurfacePoint& b) {
-    return a.triangle == b.triangle &&
-           (a.triangle == no_index ? a.vertex == b.vertex : a.barycentric == b.barycentric);
-}
+/// One row per vertex that any field reaches, one column per field.
+struct FieldTable {
+    std::vector<uint32_t> vertices;
+    std::vector<double> distances;
+};
 
-std::vector<SurfacePoint> distinct(std::span<const SurfacePoint> anchors) {
-    std::vector<SurfacePoint> kept;
-    for (const SurfacePoint& anchor : anchors) {
-        if (std::none_of(kept.begin(), kept.end(),
-                         [&](const SurfacePoint& k) { return same_place(k, anchor); })) {
-            kept.push_back(anchor);
+FieldTable table_of(std::span<const DistanceField> fields) {
+    FieldTable table;
+    std::unordered_map<uint32_t, size_t> row_of;
+    for (size_t i = 0; i < fields.size(); ++i) {
+        for (size_t k = 0; k < fields[i].vertices.size(); ++k) {
+            const auto [place, fresh] = row_of.try_emplace(fields[i].vertices[k], row_of.size());
+            if (fresh) {
+                table.distances.resize(table.distances.size() + fields.size(), infinity);
+                table.vertices.push_back(fields[i].vertices[k]);
+            }
+            table.distances[place->second * fields.size() + i] = fields[i].distances[k];
         }
     }
-    return kept;
+    return table;
 }
 
 } // namespace
@@ -61,44 +67,41 @@ double smooth_minimum(std::span<const double> distances, double width) {
     return std::max(0.0, least - own_width * std::log(sum));
 }
 
-DistanceField anchor_distances(const GeodesicSolver& solver, std::span<const SurfacePoint> anchors,
-                               double radius, double width, DistanceMethod method) {
+double blend_reach(double radius, double width, size_t anchors) {
+    const double spread = anchors > 1 ? widths_that_show + std::log(static_cast<double>(anchors)) : 0;
+    return radius + (width > 0 ? width * spread : 0);
+}
+
+DistanceField anchor_distances(std::span<const DistanceSources> anchors, double radius, double width,
+                               const FieldFinder& find) {
     if (!(width >= 0) || !std::isfinite(width)) {
         throw InputError("anchors: the blend width is " + number_text(width) + "; give a length >= 0");
     }
-    const std::vector<SurfacePoint> places = distinct(anchors);
-    // The solver says what is wrong with a radius.
-    if (!(radius >= 0) || width == 0 || places.size() < 2) {
-        return solver.solve(anchors, radius, method);
+    // The finder says what is wrong with a radius.
+    if (!(radius >= 0) || width == 0 || anchors.size() < 2) {
+        return find(all_of(anchors), radius);
     }
-    const double reach = radius + width * (widths_that_show + std::log(static_cast<double>(places.size())));
-    const std::vector<DistanceField> fields = single_fields(solver, places, reach, method);
+    const double reach = blend_reach(radius, width, anchors.size());
+    std::vector<DistanceField> fields(anchors.size());
+    parallel_for(anchors.size(), 1, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            fields[i] = find(anchors[i], reach);
+        }
+    });
+    const FieldTable table = table_of(fields);
     DistanceField blended;
-    blended.method = DistanceMethod::exact;
-    std::unordered_map<uint32_t, size_t> row_of;
-    std::vector<double> rows;
-    for (size_t i = 0; i < fields.size(); ++i) {
-        if (fields[i].method == DistanceMethod::approximate) {
-            blended.method = DistanceMethod::approximate;
-        }
-        for (size_t k = 0; k < fields[i].vertices.size(); ++k) {
-            const auto [place, fresh] = row_of.try_emplace(fields[i].vertices[k], row_of.size());
-            if (fresh) {
-                rows.resize(rows.size() + fields.size(), infinity);
-                blended.vertices.push_back(fields[i].vertices[k]);
-            }
-            rows[place->second * fields.size() + i] = fields[i].distances[k];
-        }
-    }
-    size_t kept = 0;
-    for (size_t row = 0; row < row_of.size(); ++row) {
-        const double distance = smooth_minimum({rows.data() + row * fields.size(), fields.size()}, width);
+    const bool exact = std::all_of(fields.begin(), fields.end(), [](const DistanceField& field) {
+        return field.method == DistanceMethod::exact;
+    });
+    blended.method = exact ? DistanceMethod::exact : DistanceMethod::approximate;
+    for (size_t row = 0; row < table.vertices.size(); ++row) {
+        const double distance =
+            smooth_minimum({table.distances.data() + row * fields.size(), fields.size()}, width);
         if (distance <= radius) {
-            blended.vertices[kept++] = blended.vertices[row];
+            blended.vertices.push_back(table.vertices[row]);
             blended.distances.push_back(distance);
         }
     }
-    blended.vertices.resize(kept);
     return blended;
 }
 

@@ -3,6 +3,8 @@
 
 #include "engine/distance/distance.h"
 
+#include <functional>
+
 namespace anvil {
 
 /// Smooth minimum of distances, 0 on the anchors:
@@ -13,12 +15,18 @@ namespace anvil {
 /// log n <= m. `distances`: n >= 1 numbers >= 0, +inf allowed. `width` w >= 0, 0 is the plain minimum.
 double smooth_minimum(std::span<const double> distances, double width);
 
+/// How far single fields must reach for their smooth minimum to be right up to `radius` (to 2e-9 widths).
+double blend_reach(double radius, double width, size_t anchors);
+
+/// Finds the distances of vertices from sources up to a radius, with any metric. Called from several threads
+/// at once.
+using FieldFinder = std::function<DistanceField(const DistanceSources& sources, double radius)>;
+
 /// Distances to a set of anchors, for all vertices not farther than `radius`: eq. 10 of Bendels & Klein 2003
 /// where `width` is 0, else the smooth minimum of one field per anchor, found on all cores. Anchors in one
-/// place count once. @throws InputError as GeodesicSolver::solve does, and if the width is negative or not
-/// finite.
-DistanceField anchor_distances(const GeodesicSolver& solver, std::span<const SurfacePoint> anchors,
-                               double radius, double width,
-                               DistanceMethod method = DistanceMethod::automatic);
+/// place count as many: give each once. @throws InputError as `find` does, and if the width is negative or
+/// not finite.
+DistanceField anchor_distances(std::span<const DistanceSources> anchors, double radius, double width,
+                               const FieldFinder& find);
 
 } // namespace anvil

@@ -6,6 +6,7 @@
 #include "engine/mesh/mesh.h"
 #include "engine/mesh/surface_point.h"
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -103,9 +104,11 @@ class GeodesicMarch {
     std::unique_ptr<Work> work_;
 };
 
-/// Straight distance through space from each position to the nearest of `sources`, for positions not farther
-/// than `radius`, in vertex order. @throws InputError if the radius is NaN or negative.
-DistanceField euclidean_distances(std::span<const Vec3> positions, std::span<const Vec3> sources,
+/// Straight distance through space from each position to the nearest of `points` and `triangles` (corners in
+/// space; a line is a triangle with two corners in one place), for positions not farther than `radius`, in
+/// vertex order. @throws InputError if the radius is NaN or negative.
+DistanceField euclidean_distances(std::span<const Vec3> positions, std::span<const Vec3> points,
+                                  std::span<const std::array<Vec3, 3>> triangles = {},
                                   double radius = infinity);
 
 } // namespace anvil

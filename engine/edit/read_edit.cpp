@@ -88,6 +88,18 @@ Handle read_handle(const JsonReader& handle, EditKind kind) {
     return result;
 }
 
+/// The width of a smooth blend.
+std::optional<double> read_blend(const JsonReader& blend) {
+    if (blend.is_string() && blend.text() == "min") {
+        return std::nullopt;
+    }
+    if (!blend.is_object()) {
+        blend.fail_found("must be \"min\" (the nearest anchor counts) or {\"smooth\": width}");
+    }
+    blend.check_keys({"smooth"});
+    return blend.required("smooth").positive();
+}
+
 Anchors read_anchors(const JsonReader& anchors, size_t handle_count) {
     anchors.check_keys({"handle", "at", "blend"});
     Anchors result;
@@ -99,15 +111,14 @@ Anchors read_anchors(const JsonReader& anchors, size_t handle_count) {
         result.handle = anchors.required("handle").whole(0, static_cast<uint32_t>(handle_count - 1));
     }
     const JsonReader at = anchors.required("at");
-    result.at = read_addresses(at);
+    for (const JsonReader& item : at.items()) {
+        result.at.push_back(read_anchor(item));
+    }
     if (result.at.empty()) {
-        at.fail_found("must hold at least one point");
+        at.fail_found("must hold at least one point, polyline or face");
     }
     if (const auto blend = anchors.find("blend")) {
-        if (blend->has("smooth")) {
-            blend->fail("a smooth blend is not yet supported by this version; use \"min\"");
-        }
-        blend->word<bool>({{"min", true}});
+        result.smooth_width = read_blend(*blend);
     }
     return result;
 }
@@ -163,6 +174,22 @@ void read_handles(const JsonReader& list, Edit& edit) {
     }
 }
 
+/// Of smooth_surface; handles and metric are read already.
+uint32_t read_rounds(const JsonReader& rounds, const Edit& edit) {
+    constexpr uint32_t most = 1000;
+    const uint32_t count = rounds.whole(0, most);
+    const bool hammered = edit.handles.empty() && edit.metric == Metric::geodesic;
+    const bool geodesic =
+        hammered || std::any_of(edit.handles.begin(), edit.handles.end(), [&](const Handle& handle) {
+            return handle.metric.value_or(edit.metric) == Metric::geodesic;
+        });
+    if (count > 0 && !geodesic) {
+        rounds.fail("Euclidean distances do not run over the surface; remove the key, or use "
+                    "\"metric\": \"geodesic\"");
+    }
+    return count;
+}
+
 void read_distances(const JsonReader& edit, Edit& result) {
     if (const auto anchors = edit.find("anchors")) {
         read_all_anchors(*anchors, result);
@@ -172,6 +199,9 @@ void read_distances(const JsonReader& edit, Edit& result) {
     }
     if (const auto method = edit.find("method")) {
         result.method = read_method(*method);
+    }
+    if (const auto rounds = edit.find("smooth_surface")) {
+        result.smooth_surface = read_rounds(*rounds, result);
     }
     if (const auto radius = edit.find("radius")) {
         result.radius = radius->positive();
@@ -236,8 +266,8 @@ void check_handleless(const JsonReader& edit, const Edit& parsed) {
 
 Edit read_edit(const JsonReader& edit) {
     edit.check_keys({"kind", "handles", "anchors", "axis", "sweep", "metric", "method", "radius", "shape",
-                     "occluders", "steps", "least_squares", "amount", "pinned", "refine"},
-                    {"smooth_surface", "mirror", "dilation"});
+                     "occluders", "steps", "least_squares", "amount", "pinned", "refine", "smooth_surface"},
+                    {"mirror", "dilation"});
     Edit result;
     result.kind = edit.required("kind").word<EditKind>(
         {{"translate", EditKind::translate}, {"rotate", EditKind::rotate}});

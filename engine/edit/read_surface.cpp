@@ -35,8 +35,8 @@ SurfaceAddress read_face(const JsonReader& point) {
     }
     const auto weights = point.find("barycentric");
     if (!weights) {
-        point.fail("a whole face is not yet supported as an anchor; add \"barycentric\": [b0, b1, b2] "
-                   "for a point inside it");
+        point.fail("a whole face is an anchor, not a point; add \"barycentric\": [b0, b1, b2] for a point "
+                   "inside it");
     }
     const Vec3 b = weights->vector();
     try {
@@ -83,7 +83,10 @@ ShapeChoice read_shape(const JsonReader& shape) {
 }
 
 SurfaceAddress read_address(const JsonReader& point) {
-    point.check_keys({"vertex", "face", "triangle", "barycentric", "nearest"}, {"polyline"});
+    if (point.has("polyline")) {
+        point.fail("a polyline is an anchor, not a point; give \"vertex\", \"face\" or \"nearest\"");
+    }
+    point.check_keys({"vertex", "face", "triangle", "barycentric", "nearest"});
     const int forms = int(point.has("vertex")) + int(point.has("face")) + int(point.has("nearest"));
     if (forms != 1) {
         point.fail("a point is given by exactly one of \"vertex\", \"face\" (with \"barycentric\") and "
@@ -105,6 +108,24 @@ std::vector<SurfaceAddress> read_addresses(const JsonReader& list) {
         addresses.push_back(read_address(item));
     }
     return addresses;
+}
+
+AnchorAddress read_anchor(const JsonReader& anchor) {
+    anchor.check_keys({"vertex", "face", "triangle", "barycentric", "nearest", "polyline"});
+    if (anchor.has("polyline")) {
+        anchor.check_keys({"polyline"});
+        const JsonReader line = anchor.required("polyline");
+        PolylineAddress address{read_addresses(line)};
+        if (address.points.size() < 2) {
+            line.fail_found("a line takes two points or more");
+        }
+        return address;
+    }
+    if (anchor.has("face") && !anchor.has("barycentric") && !anchor.has("triangle")) {
+        anchor.check_keys({"face"});
+        return WholeFaceAddress{anchor.required("face").index()};
+    }
+    return read_address(anchor);
 }
 
 } // namespace anvil

@@ -53,7 +53,8 @@ struct Handle {
 /// What the distance of a handle is measured from in place of the handle itself; at most one per handle.
 struct Anchors {
     uint32_t handle = 0;
-    std::vector<SurfaceAddress> at;
+    std::vector<AnchorAddress> at;      ///< at least one
+    std::optional<double> smooth_width; ///< of the blend, a length > 0; absent: the nearest anchor counts
 
     bool operator==(const Anchors&) const = default;
 };
@@ -265,6 +266,7 @@ struct Edit {
     Sweep sweep = Sweep::arc; ///< rotations
     Metric metric = Metric::geodesic;
     DistanceMethod method = DistanceMethod::automatic;
+    uint32_t smooth_surface = 0;  ///< geodesic distances are measured on a copy smoothed by so many rounds
     std::optional<double> radius; ///< world units, > 0; default: half of the handle's largest finite distance
     ShapeChoice shape;
     std::optional<std::vector<OccluderUse>> occluders; ///< absent: all occluders of the recipe as they stand

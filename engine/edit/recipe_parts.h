@@ -13,6 +13,7 @@ std::vector<Knot> read_knots(const JsonReader& list);
 ShapeChoice read_shape(const JsonReader& shape);
 SurfaceAddress read_address(const JsonReader& point);
 std::vector<SurfaceAddress> read_addresses(const JsonReader& list);
+AnchorAddress read_anchor(const JsonReader& anchor);
 Transform read_transform(const JsonReader& transform);
 /// translate, rotate and scale, beside whatever other keys.
 Transform read_pose_keys(const JsonReader& transform);
@@ -28,6 +29,7 @@ nlohmann::ordered_json written(const Vec3& v);
 nlohmann::ordered_json written(const std::vector<Knot>& knots);
 nlohmann::ordered_json written(const ShapeChoice& shape);
 nlohmann::ordered_json written(const SurfaceAddress& address);
+nlohmann::ordered_json written(const AnchorAddress& anchor);
 nlohmann::ordered_json written(const Transform& transform);
 nlohmann::ordered_json written(const Influence& influence);
 nlohmann::ordered_json written(const OccluderShape& shape);

@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace anvil {
 
@@ -34,6 +35,24 @@ struct NearestAddress {
 };
 
 using SurfaceAddress = std::variant<VertexAddress, FaceAddress, NearestAddress>;
+
+/// A line along the surface through two points or more; a shortest line joins two that follow each other and
+/// lie in no common triangle.
+struct PolylineAddress {
+    std::vector<SurfaceAddress> points;
+
+    bool operator==(const PolylineAddress&) const = default;
+};
+
+/// A whole polygon of the file.
+struct WholeFaceAddress {
+    uint32_t face = 0;
+
+    bool operator==(const WholeFaceAddress&) const = default;
+};
+
+/// What distances can be measured from.
+using AnchorAddress = std::variant<SurfaceAddress, PolylineAddress, WholeFaceAddress>;
 
 /// Reads the program's form of an address: `v:INDEX`, `f:FACE[.TRIANGLE]:b0,b1,b2` or `x,y,z`.
 /// @throws InputError that shows the text and the three forms.

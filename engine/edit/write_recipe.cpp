@@ -40,6 +40,9 @@ void write_distances(const Edit& edit, Json& result) {
     }
     result["metric"] = name_of(edit.metric);
     result["method"] = name_of(edit.method);
+    if (edit.smooth_surface > 0) {
+        result["smooth_surface"] = edit.smooth_surface;
+    }
     if (edit.radius) {
         result["radius"] = *edit.radius;
     }
@@ -122,6 +125,16 @@ Json written(const SurfaceAddress& address) {
     return {{"nearest", written(std::get<NearestAddress>(address).point)}};
 }
 
+Json written(const AnchorAddress& anchor) {
+    if (const auto* line = std::get_if<PolylineAddress>(&anchor)) {
+        return {{"polyline", list_of(line->points)}};
+    }
+    if (const auto* face = std::get_if<WholeFaceAddress>(&anchor)) {
+        return {{"face", face->face}};
+    }
+    return written(std::get<SurfaceAddress>(anchor));
+}
+
 Json written(const Handle& handle) {
     Json result{{"at", written(handle.at)}};
     if (handle.by) {
@@ -149,7 +162,9 @@ Json written(const Handle& handle) {
 }
 
 Json written(const Anchors& anchors) {
-    return {{"handle", anchors.handle}, {"at", list_of(anchors.at)}, {"blend", "min"}};
+    return {{"handle", anchors.handle},
+            {"at", list_of(anchors.at)},
+            {"blend", anchors.smooth_width ? Json{{"smooth", *anchors.smooth_width}} : Json("min")}};
 }
 
 Json written(const Edit& edit) {

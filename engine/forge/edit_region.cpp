@@ -1,6 +1,7 @@
 #include "engine/forge/edit_region.h"
 
 #include "engine/core/error.h"
+#include "engine/forge/anchor_set.h"
 
 #include <algorithm>
 
@@ -12,6 +13,24 @@ struct HandleField {
     DistanceField distances;
     double radius;
 };
+
+/// Without sources where handle `j` has no anchors.
+DistanceQuery anchor_query(const Edit& edit, size_t j, Metric metric, const std::optional<double>& radius,
+                           const std::string& place, SurfaceState& surface) {
+    DistanceQuery query;
+    query.metric = metric;
+    query.method = edit.method;
+    query.smooth_rounds = metric == Metric::geodesic ? edit.smooth_surface : 0;
+    query.radius = radius.value_or(infinity);
+    for (size_t a = 0; a < edit.anchors.size(); ++a) {
+        if (edit.anchors[a].handle == j) {
+            query.anchors = resolve_anchors(edit.anchors[a].at, query.smooth_rounds,
+                                            place + ".anchors[" + std::to_string(a) + "]", surface);
+            query.blend_width = edit.anchors[a].smooth_width.value_or(0);
+        }
+    }
+    return query;
+}
 
 /// Half of the largest finite distance, the default radius of influence.
 double half_reach(const DistanceField& field, const std::string& place) {
@@ -70,15 +89,23 @@ void fill_fields(const std::vector<HandleField>& fields, EditRegion& region) {
     }
 }
 
+std::string handle_place(const std::string& place, size_t j) {
+    return place + ".handles[" + std::to_string(j) + "]";
+}
+
+/// Takes the radius from the query, or the default.
+HandleField bounded(DistanceField&& distances, const DistanceQuery& query, const std::string& place) {
+    const double radius = std::isinf(query.radius) ? half_reach(distances, place) : query.radius;
+    return {std::move(distances), radius};
+}
+
 /// Without handles: within the radius of the anchors, or everywhere.
 EditRegion hammered_region(const Edit& edit, const std::string& place, SurfaceState& surface) {
     EditRegion region;
     const std::vector<uint32_t> pinned = pinned_vertices(edit, place, surface);
     if (!edit.anchors.empty()) {
-        const auto sources = sources_of(edit, 0, {}, place, surface);
-        HandleField field{
-            surface.distances(sources, edit.metric, edit.method, edit.radius.value_or(infinity)), 0};
-        field.radius = edit.radius ? *edit.radius : half_reach(field.distances, place);
+        const DistanceQuery query = anchor_query(edit, 0, edit.metric, edit.radius, place, surface);
+        const HandleField field = bounded(std::move(surface.distances({&query, 1})[0]), query, place);
         region.radii.push_back(field.radius);
         region.vertices = region_vertices({field}, pinned);
         return region;
@@ -100,21 +127,15 @@ std::string method_name(Metric metric, const DistanceField& field) {
 
 } // namespace
 
-std::vector<SurfacePoint> sources_of(const Edit& edit, size_t handle, const SurfacePoint& handle_point,
-                                     const std::string& place, SurfaceState& surface) {
-    for (size_t a = 0; a < edit.anchors.size(); ++a) {
-        if (edit.anchors[a].handle != handle) {
-            continue;
-        }
-        std::vector<SurfacePoint> sources;
-        for (size_t i = 0; i < edit.anchors[a].at.size(); ++i) {
-            const std::string where =
-                place + ".anchors[" + std::to_string(a) + "].at[" + std::to_string(i) + "]";
-            sources.push_back(surface.resolve(edit.anchors[a].at[i], where));
-        }
-        return sources;
+DistanceQuery query_of(const Edit& edit, size_t j, const SurfacePoint& handle_point, const std::string& place,
+                       SurfaceState& surface) {
+    const Handle& handle = edit.handles[j];
+    DistanceQuery query = anchor_query(edit, j, handle.metric.value_or(edit.metric),
+                                       handle.radius ? handle.radius : edit.radius, place, surface);
+    if (query.anchors.empty()) {
+        query.anchors.emplace_back().points.push_back(handle_point);
     }
-    return {handle_point};
+    return query;
 }
 
 std::vector<uint32_t> pinned_vertices(const Edit& edit, const std::string& place, SurfaceState& surface) {
@@ -140,23 +161,21 @@ EditRegion find_region(const Edit& edit, const std::string& place, SurfaceState&
         return hammered_region(edit, place, surface);
     }
     EditRegion region;
-    std::vector<HandleField> fields;
+    std::vector<DistanceQuery> queries;
     for (size_t j = 0; j < edit.handles.size(); ++j) {
         const Handle& handle = edit.handles[j];
-        const std::string where = place + ".handles[" + std::to_string(j) + "]";
-        const SurfacePoint point = surface.resolve(handle.at, where + ".at");
+        const SurfacePoint point = surface.resolve(handle.at, handle_place(place, j) + ".at");
         region.handle_positions.push_back(surface.position_of(point));
         region.handle_weights.push_back(surface.weights_of(point));
         region.shapes.push_back(make_shape_function(handle.shape.value_or(edit.shape)));
-
-        const Metric metric = handle.metric.value_or(edit.metric);
-        const std::optional<double> radius = handle.radius ? handle.radius : edit.radius;
-        const auto sources = sources_of(edit, j, point, place, surface);
-        HandleField field{surface.distances(sources, metric, edit.method, radius.value_or(infinity)), 0};
-        field.radius = radius ? *radius : half_reach(field.distances, where);
-        region.radii.push_back(field.radius);
-        region.methods.push_back(method_name(metric, field.distances));
-        fields.push_back(std::move(field));
+        queries.push_back(query_of(edit, j, point, place, surface));
+    }
+    std::vector<HandleField> fields;
+    for (DistanceField& distances : surface.distances(queries)) {
+        const size_t j = fields.size();
+        region.methods.push_back(method_name(queries[j].metric, distances));
+        fields.push_back(bounded(std::move(distances), queries[j], handle_place(place, j)));
+        region.radii.push_back(fields.back().radius);
     }
     region.vertices = region_vertices(fields, pinned_vertices(edit, place, surface));
     fill_fields(fields, region);

@@ -28,9 +28,9 @@ struct EditRegion {
 /// @throws InputError with `place` ("edits[2]") in front: bad addresses, a radius that cannot be defaulted.
 EditRegion find_region(const Edit& edit, const std::string& place, SurfaceState& surface);
 
-/// What the distance of a handle is measured from: its anchors, or the handle itself.
-std::vector<SurfacePoint> sources_of(const Edit& edit, size_t handle, const SurfacePoint& handle_point,
-                                     const std::string& place, SurfaceState& surface);
+/// How the distances of handle `j` are measured, and what from: its anchors, or `handle_point`.
+DistanceQuery query_of(const Edit& edit, size_t j, const SurfacePoint& handle_point, const std::string& place,
+                       SurfaceState& surface);
 
 /// The vertices that carry pinned points, ascending, each once.
 std::vector<uint32_t> pinned_vertices(const Edit& edit, const std::string& place, SurfaceState& surface);

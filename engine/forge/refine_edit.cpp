@@ -1,5 +1,7 @@
 #include "engine/forge/refine_edit.h"
 
+#include "engine/distance/anchor_blend.h"
+
 #include <algorithm>
 
 namespace anvil {
@@ -10,13 +12,40 @@ namespace {
 constexpr double parting = 0.05;
 constexpr size_t default_limit = 1'000'000;
 
-std::vector<Vec3> places_of(std::span<const SurfacePoint> points, const SurfaceState& surface) {
+/// Points of the anchors of all kinds; of faces the corners.
+std::vector<Vec3> places_of(const std::vector<DistanceSources>& anchors, const Mesh& mesh,
+                            std::span<const Vec3> positions, const SurfaceState& surface) {
     std::vector<Vec3> places;
-    places.reserve(points.size());
-    for (const SurfacePoint& point : points) {
-        places.push_back(surface.position_of(point));
+    for (const DistanceSources& anchor : anchors) {
+        for (const SurfacePoint& point : anchor.points) {
+            places.push_back(surface.position_of(point));
+        }
+        for (const auto& line : anchor.polylines) {
+            for (const SurfacePoint& point : line) {
+                places.push_back(surface.position_of(point));
+            }
+        }
+        for (const uint32_t t : anchor.triangles) {
+            for (const uint32_t corner : mesh.triangles[t]) {
+                places.push_back(positions[corner]);
+            }
+        }
     }
     return places;
+}
+
+AnchorField field_of(const DistanceSources& anchor, DistanceQuery query, double reach, size_t vertex_count,
+                     SurfaceState& surface) {
+    query.anchors = {anchor};
+    query.radius = reach;
+    AnchorField field;
+    field.distances = surface.distances({&query, 1})[0].dense(vertex_count);
+    if (anchor.points.empty()) {
+        field.kind = SourceKind::line;
+    } else if (query.metric == Metric::euclidean) {
+        field.straight_from = surface.position_of(anchor.points[0]);
+    }
+    return field;
 }
 
 /// atan2 keeps its digits at angles near 0, where acos has none.
@@ -31,8 +60,12 @@ std::vector<SurfacePoint> points_of(const Edit& edit, const std::string& place, 
     for (size_t j = 0; j < edit.handles.size(); ++j) {
         points.push_back(
             surface.resolve(edit.handles[j].at, place + ".handles[" + std::to_string(j) + "].at"));
-        const auto sources = sources_of(edit, j, points.back(), place, surface);
-        points.insert(points.end(), sources.begin(), sources.end());
+        for (const DistanceSources& anchor : query_of(edit, j, points.back(), place, surface).anchors) {
+            points.insert(points.end(), anchor.points.begin(), anchor.points.end());
+            for (const auto& line : anchor.polylines) {
+                points.insert(points.end(), line.begin(), line.end());
+            }
+        }
     }
     for (size_t i = 0; i < edit.pinned.size(); ++i) {
         points.push_back(surface.resolve(edit.pinned[i], place + ".pinned[" + std::to_string(i) + "]"));
@@ -46,19 +79,13 @@ RefineState start_refinement(const Edit& edit, const EditRegion& region, const s
     for (size_t j = 0; j < edit.handles.size(); ++j) {
         const SurfacePoint handle =
             surface.resolve(edit.handles[j].at, place + ".handles[" + std::to_string(j) + "].at");
-        const auto sources = sources_of(edit, j, handle, place, surface);
-        const std::vector<Vec3> places = places_of(sources, surface);
-        const Metric metric = edit.handles[j].metric.value_or(edit.metric);
-        const double reach = needed_reach(mesh.triangles, positions, places, region.radii[j]);
-        HandleField field{region.shapes[j], region.radii[j], 0, {}};
-        for (size_t a = 0; a < sources.size(); ++a) {
-            AnchorField anchor;
-            anchor.distances =
-                surface.distances({&sources[a], 1}, metric, edit.method, reach).dense(positions.size());
-            if (metric == Metric::euclidean) {
-                anchor.straight_from = places[a];
-            }
-            field.anchors.push_back(std::move(anchor));
+        const DistanceQuery query = query_of(edit, j, handle, place, surface);
+        const std::vector<Vec3> places = places_of(query.anchors, mesh, positions, surface);
+        const double reach = blend_reach(needed_reach(mesh.triangles, positions, places, region.radii[j]),
+                                         query.blend_width, query.anchors.size());
+        HandleField field{region.shapes[j], region.radii[j], query.blend_width, {}};
+        for (const DistanceSources& anchor : query.anchors) {
+            field.anchors.push_back(field_of(anchor, query, reach, positions.size(), surface));
         }
         state.handles.push_back(std::move(field));
     }

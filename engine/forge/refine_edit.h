@@ -7,7 +7,8 @@
 
 namespace anvil {
 
-/// The points of an edit that are vertices before anything else is refined: handles, anchors, pinned points.
+/// The points of an edit that are vertices before anything else is refined: handles, pinned points,
+/// and anchors (lines by every edge that they cross).
 std::vector<SurfacePoint> points_of(const Edit& edit, const std::string& place, SurfaceState& surface);
 
 /// What refinement starts from: the handles' distances at every vertex, one field per anchor, as far as it

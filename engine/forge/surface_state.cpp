@@ -1,6 +1,9 @@
 #include "engine/forge/surface_state.h"
 
 #include "engine/core/error.h"
+#include "engine/core/parallel_for.h"
+#include "engine/distance/anchor_blend.h"
+#include "engine/distance/smoothed_surface.h"
 
 namespace anvil {
 
@@ -21,13 +24,17 @@ SurfacePoint SurfaceState::at_vertex(uint32_t vertex, const std::string& place) 
     return vertex_point(mesh_, vertex);
 }
 
-SurfacePoint SurfaceState::at_face(const FaceAddress& address, const std::string& place) const {
-    const Mesh& file = history_.first_mesh();
-    if (address.face >= file.polygon_count()) {
-        throw InputError(place + ": face " + std::to_string(address.face) +
-                         " is out of range: the mesh has " + std::to_string(file.polygon_count()) +
-                         " faces (" + range(file.polygon_count()) + ")");
+void SurfaceState::check_face(uint32_t face, const std::string& place) const {
+    const size_t count = history_.first_mesh().polygon_count();
+    if (face >= count) {
+        throw InputError(place + ": face " + std::to_string(face) + " is out of range: the mesh has " +
+                         std::to_string(count) + " faces (" + range(count) + ")");
     }
+}
+
+SurfacePoint SurfaceState::at_face(const FaceAddress& address, const std::string& place) const {
+    check_face(address.face, place);
+    const Mesh& file = history_.first_mesh();
     const size_t first = file.first_triangle(address.face);
     const size_t count = file.first_triangle(address.face + size_t{1}) - first;
     if (address.triangle >= count) {
@@ -64,20 +71,92 @@ SurfacePoint SurfaceState::resolve(const SurfaceAddress& address, const std::str
     return near(std::get<NearestAddress>(address).point, place);
 }
 
-DistanceField SurfaceState::distances(std::span<const SurfacePoint> sources, Metric metric,
-                                      DistanceMethod method, double radius) {
-    if (metric == Metric::euclidean) {
-        std::vector<Vec3> points;
-        points.reserve(sources.size());
-        for (const SurfacePoint& source : sources) {
-            points.push_back(position_of(source));
+std::vector<uint32_t> SurfaceState::triangles_of(const WholeFaceAddress& face,
+                                                 const std::string& place) const {
+    check_face(face.face, place);
+    const Mesh& file = history_.first_mesh();
+    return history_.parts_of(static_cast<uint32_t>(file.first_triangle(face.face)),
+                             static_cast<uint32_t>(file.first_triangle(face.face + size_t{1})));
+}
+
+const GeodesicSolver& SurfaceState::solver(uint32_t smooth_rounds) {
+    const auto known = solvers_.find(smooth_rounds);
+    if (known != solvers_.end()) {
+        return known->second;
+    }
+    const std::vector<Vec3> smoothed =
+        smooth_rounds > 0 ? smoothed_positions(mesh_, positions_, smooth_rounds) : std::vector<Vec3>{};
+    const std::span<const Vec3> positions = smooth_rounds > 0 ? std::span<const Vec3>(smoothed) : positions_;
+    return solvers_.try_emplace(smooth_rounds, mesh_, positions).first->second;
+}
+
+std::vector<SurfacePoint> SurfaceState::line_through(std::span<const SurfacePoint> points,
+                                                     uint32_t smooth_rounds, const std::string& place) {
+    const GeodesicSolver& surface = solver(smooth_rounds);
+    std::vector<SurfacePoint> line(points.begin(), points.begin() + 1);
+    for (size_t i = 1; i < points.size(); ++i) {
+        const auto joined = surface.share_triangle(points[i - 1], points[i])
+                                ? std::vector<SurfacePoint>{points[i - 1], points[i]}
+                                : surface.shortest_line(points[i - 1], points[i]);
+        if (joined.empty()) {
+            throw InputError(place + ": no way along the surface leads from point " + std::to_string(i - 1) +
+                             " to point " + std::to_string(i) +
+                             ": they lie in different components; give each component a polyline of its own");
         }
-        return euclidean_distances(positions_, points, radius);
+        line.insert(line.end(), joined.begin() + 1, joined.end());
     }
-    if (!solver_) {
-        solver_.emplace(mesh_, positions_);
+    return line;
+}
+
+bool SurfaceState::same_place(const SurfacePoint& a, const SurfacePoint& b) const {
+    const VertexWeights first = vertex_weights(mesh_, a), second = vertex_weights(mesh_, b);
+    const bool inside = first.count == 3 && a.triangle != b.triangle;
+    return first.count == second.count && !inside &&
+           std::all_of(first.begin(), first.end(), [&](const VertexWeight& w) {
+               return std::any_of(second.begin(), second.end(), [&](const VertexWeight& other) {
+                   return other.vertex == w.vertex && std::abs(other.weight - w.weight) <= barycentric_snap;
+               });
+           });
+}
+
+DistanceField SurfaceState::straight_distances(const DistanceSources& sources, double radius) const {
+    std::vector<Vec3> points;
+    std::vector<std::array<Vec3, 3>> triangles;
+    for (const SurfacePoint& point : sources.points) {
+        points.push_back(position_of(point));
     }
-    return solver_->solve(sources, radius, method);
+    for (const std::vector<SurfacePoint>& line : sources.polylines) {
+        for (size_t i = 1; i < line.size(); ++i) {
+            const Vec3 end = position_of(line[i]);
+            triangles.push_back({position_of(line[i - 1]), end, end});
+        }
+    }
+    for (const uint32_t t : sources.triangles) {
+        const Triangle& corners = mesh_.triangles[t];
+        triangles.push_back({positions_[corners[0]], positions_[corners[1]], positions_[corners[2]]});
+    }
+    return euclidean_distances(positions_, points, triangles, radius);
+}
+
+std::vector<DistanceField> SurfaceState::distances(std::span<const DistanceQuery> queries) {
+    for (const DistanceQuery& query : queries) {
+        if (query.metric == Metric::geodesic) {
+            solver(query.smooth_rounds);
+        }
+    }
+    std::vector<DistanceField> fields(queries.size());
+    parallel_for(queries.size(), 1, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const DistanceQuery& query = queries[i];
+            const auto find = [&](const DistanceSources& sources, double radius) {
+                return query.metric == Metric::euclidean
+                           ? straight_distances(sources, radius)
+                           : solvers_.at(query.smooth_rounds).solve(sources, radius, query.method);
+            };
+            fields[i] = anchor_distances(query.anchors, query.radius, query.blend_width, find);
+        }
+    });
+    return fields;
 }
 
 Vec3 SurfaceState::position_of(const SurfacePoint& point) const {

@@ -8,16 +8,26 @@
 #include "engine/mesh/surface_point.h"
 #include "engine/refine/refined_places.h"
 
+#include <map>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace anvil {
 
+/// What a handle's distances are measured from, and how.
+struct DistanceQuery {
+    std::vector<DistanceSources> anchors; ///< at least one; no two in one place
+    double blend_width = 0;               ///< of a smooth blend of the anchors' fields; 0: the nearest counts
+    Metric metric = Metric::geodesic;
+    DistanceMethod method = DistanceMethod::automatic; ///< of geodesic distances
+    double radius = infinity;
+    uint32_t smooth_rounds = 0; ///< geodesic distances run on a copy that was smoothed so often
+};
+
 /// One mesh at one set of positions, both of which must outlive it unchanged. The search tree and the
-/// distance solver, O(mesh) each, are built when first asked for and then kept. Not for several threads.
+/// distance solvers, O(mesh) each, are built when first asked for and then kept. Not for several threads.
 /// `history`: what refinement made of the file's mesh, to which addresses belong, until it is this one.
 class SurfaceState {
   public:
@@ -28,10 +38,20 @@ class SurfaceState {
     /// @throws InputError if an index is out of range or the mesh has no surface to be near to.
     SurfacePoint resolve(const SurfaceAddress& address, const std::string& place);
 
-    /// Distance of every vertex from the nearest of `sources` (eq. 10), up to `radius`; `method` matters to
-    /// the geodesic metric alone.
-    DistanceField distances(std::span<const SurfacePoint> sources, Metric metric, DistanceMethod method,
-                            double radius);
+    /// What is left of or became of the polygon's triangles. @throws InputError as resolve() does.
+    std::vector<uint32_t> triangles_of(const WholeFaceAddress& face, const std::string& place) const;
+
+    /// A line through the points, with all places between that distances need: where two that follow each
+    /// other lie in no common triangle, a shortest line on the smoothed copy joins them.
+    /// @throws InputError where no way leads from one to the next; `place` is that of the polyline.
+    std::vector<SurfacePoint> line_through(std::span<const SurfacePoint> points, uint32_t smooth_rounds,
+                                           const std::string& place);
+
+    /// Whether both are one point of the surface, however they are given.
+    bool same_place(const SurfacePoint& a, const SurfacePoint& b) const;
+
+    /// One field per query, all at once on all cores.
+    std::vector<DistanceField> distances(std::span<const DistanceQuery> queries);
 
     size_t vertex_count() const { return positions_.size(); }
     Vec3 position_of(const SurfacePoint& point) const;
@@ -41,13 +61,16 @@ class SurfaceState {
   private:
     SurfacePoint at_vertex(uint32_t vertex, const std::string& place);
     SurfacePoint at_face(const FaceAddress& address, const std::string& place) const;
+    void check_face(uint32_t face, const std::string& place) const;
+    const GeodesicSolver& solver(uint32_t smooth_rounds);
+    DistanceField straight_distances(const DistanceSources& sources, double radius) const;
     SurfacePoint near(const Vec3& point, const std::string& place);
 
     const Mesh& mesh_;
     std::span<const Vec3> positions_;
     const RefinementHistory& history_;
     std::unique_ptr<SearchTree> tree_;
-    std::optional<GeodesicSolver> solver_;
+    std::map<uint32_t, GeodesicSolver> solvers_; ///< by rounds of smoothing
 };
 
 } // namespace anvil

@@ -64,4 +64,16 @@ SurfacePoint RefinementHistory::find(std::span<const Triangle> triangles, uint32
     return snapped(best);
 }
 
+std::vector<uint32_t> RefinementHistory::parts_of(uint32_t first, uint32_t end) const {
+    std::vector<uint32_t> parts;
+    const auto count = static_cast<uint32_t>(roots_.empty() ? end : roots_.size());
+    for (uint32_t t = roots_.empty() ? first : 0; t < count; ++t) {
+        const uint32_t root = roots_.empty() ? t : roots_[t];
+        if (root >= first && root < end) {
+            parts.push_back(t);
+        }
+    }
+    return parts;
+}
+
 } // namespace anvil

@@ -46,6 +46,9 @@ class RefinementHistory {
     SurfacePoint find(std::span<const Triangle> triangles, uint32_t first_triangle,
                       const Vec3& weights) const;
 
+    /// The current triangles that the triangles [first, end) of the mesh before any refinement became.
+    std::vector<uint32_t> parts_of(uint32_t first, uint32_t end) const;
+
   private:
     const Mesh& mesh_;
     std::vector<VertexParents> parents_;

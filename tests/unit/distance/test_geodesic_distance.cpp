@@ -205,7 +205,7 @@ TEST_CASE("euclidean distances are the straight ones, bounded by the radius") {
     const std::vector<Vec3> sources = {{0, 0, 0}, {3, 0, 0}};
     const std::vector<double> found = euclidean_distances(positions, sources).dense(4);
     CHECK(found == std::vector<double>{0, 4, 1, 1e200});
-    const DistanceField bounded = euclidean_distances(positions, sources, 1);
+    const DistanceField bounded = euclidean_distances(positions, sources, {}, 1);
     CHECK(bounded.vertices == std::vector<uint32_t>{0, 2});
     CHECK(euclidean_distances(positions, {}).vertices.empty());
 }

@@ -21,8 +21,8 @@ TEST_CASE("points on the surface are given in exactly one way") {
     check_complaint(at(R"({"face": 1, "barycentric": [0.5, 0.6, 0]})"),
                     {"barycentric", "0.5,0.6,0", "sum to 1"});
     check_complaint(at(R"({"face": 1, "barycentric": [-0.1, 0.6, 0.5]})"), {"barycentric", "negative"});
-    check_complaint(at(R"({"face": 1})"), {"whole face", "not yet", "barycentric"});
-    check_complaint(at(R"({"polyline": [{"vertex": 9}]})"), {"polyline", "not yet"});
+    check_complaint(at(R"({"face": 1})"), {"handles[0].at", "whole face", "barycentric"});
+    check_complaint(at(R"({"polyline": [{"vertex": 9}]})"), {"handles[0].at", "polyline is an anchor"});
 }
 
 TEST_CASE("barycentrics within rounding of the triangle are accepted and brought to sum 1") {
@@ -138,10 +138,35 @@ TEST_CASE("anchors name an existing handle, once") {
     check_complaint(
         minimal(R"(, "anchors": [{"handle": 0, "at": [{"vertex": 1}]}, {"at": [{"vertex": 2}]}])"),
         {"anchors[1]", "already"});
-    check_complaint(minimal(R"(, "anchors": [{"handle": 0, "at": [{"face": 3}]}])"),
-                    {"anchors[0].at[0]", "whole face", "not yet"});
-    check_complaint(minimal(R"(, "anchors": [{"at": [{"polyline": [{"vertex": 9}, {"vertex": 11}]}]}])"),
-                    {"anchors[0].at[0].polyline", "not yet"});
-    check_complaint(minimal(R"(, "anchors": [{"at": [{"vertex": 1}], "blend": {"smooth": 0.1}}])"),
-                    {"anchors[0].blend", "not yet"});
+    const auto anchor = [](const std::string& at, const std::string& rest = "") {
+        return minimal(R"(, "anchors": [{"at": [)" + at + "]" + rest + "}]");
+    };
+    check_complaint(anchor(R"({"vertx": 3})"), {"anchors[0].at[0].vertx", "\"vertex\"", "\"polyline\""});
+    check_complaint(anchor(R"({"face": 3, "triangle": 0})"), {"anchors[0].at[0]", "barycentric"});
+    check_complaint(anchor(R"({"vertex": 3, "polyline": []})"), {"anchors[0].at[0].vertex", "unknown key"});
+    check_complaint(anchor(R"({"polyline": [{"vertex": 9}]})"), {"at[0].polyline", "two points"});
+    check_complaint(anchor(R"({"polyline": {"vertex": 9}})"), {"at[0].polyline", "list"});
+    check_complaint(anchor(R"({"polyline": [{"vertex": 9}, {"face": 2}]})"),
+                    {"at[0].polyline[1]", "whole face", "barycentric"});
+    check_complaint(anchor(R"({"vertex": 3})", R"(, "blend": "max")"),
+                    {"anchors[0].blend", "found \"max\"", "\"min\"", "smooth"});
+    check_complaint(anchor(R"({"vertex": 3})", R"(, "blend": 0.1)"),
+                    {"anchors[0].blend", "{\"smooth\": width}"});
+    check_complaint(anchor(R"({"vertex": 3})", R"(, "blend": {"smooth": 0})"),
+                    {"anchors[0].blend.smooth", "found 0", "greater than 0"});
+    check_complaint(anchor(R"({"vertex": 3})", R"(, "blend": {"width": 1})"),
+                    {"anchors[0].blend.width", "\"smooth\""});
+}
+
+TEST_CASE("rounds of smoothing are whole, and refused where no distance runs over the surface") {
+    for (const char* bad : {"-1", "1.5", "1001", "true"}) {
+        check_complaint(minimal(R"(, "smooth_surface": )" + std::string(bad)),
+                        {"edits[0].smooth_surface", bad, "0 to 1000"});
+    }
+    check_complaint(minimal(R"(, "smooth_surface": 5, "metric": "euclidean")"),
+                    {"edits[0].smooth_surface", "Euclidean", "geodesic"});
+    CHECK(complaint(minimal(R"(, "smooth_surface": 0, "metric": "euclidean")")).empty());
+    CHECK(complaint(replaced(minimal(R"(, "smooth_surface": 5, "metric": "euclidean")"), R"("by")",
+                             R"("metric": "geodesic", "by")"))
+              .empty());
 }

@@ -37,6 +37,13 @@ TEST_CASE("a recipe that uses every key is read into the structs it names") {
     CHECK(first.handles[1].metric == Metric::geodesic);
     CHECK(std::get<FaceAddress>(first.handles[2].at) == FaceAddress{12, 1, {0.2, 0.3, 0.5}});
     CHECK(first.anchors[0].at.size() == 2);
+    CHECK_FALSE(first.anchors[0].smooth_width.has_value());
+    const auto& line = std::get<PolylineAddress>(first.anchors[1].at[0]);
+    REQUIRE(line.points.size() == 3);
+    CHECK(std::get<NearestAddress>(line.points[1]).point == Vec3(1, 2, 0.1));
+    CHECK(std::get<WholeFaceAddress>(first.anchors[1].at[1]).face == 3);
+    CHECK(first.anchors[1].smooth_width == 0.015);
+    CHECK(first.smooth_surface == 12);
     CHECK(first.metric == Metric::euclidean);
     CHECK(first.method == DistanceMethod::approximate);
     CHECK(first.occluders->at(1).influence->kind == InfluenceKind::hard);
@@ -68,6 +75,7 @@ TEST_CASE("what a recipe leaves out has the published default") {
     CHECK_FALSE(edit.radius.has_value());
     CHECK_FALSE(edit.occluders.has_value());
     CHECK_FALSE(edit.steps.has_value());
+    CHECK(edit.smooth_surface == 0);
     CHECK(edit.sweep == Sweep::arc);
     CHECK(Influence{}.kind == InfluenceKind::soft);
     CHECK(Influence{}.strength == 0.9);
