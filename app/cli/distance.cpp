@@ -42,16 +42,27 @@ DistanceMethod method_named(const std::string& name) {
     return name == "approximate" ? DistanceMethod::approximate : DistanceMethod::automatic;
 }
 
-std::vector<double> find_distances(const Mesh& mesh, const Options& options) {
+struct Found {
+    std::vector<double> distances; ///< one per vertex
+    std::vector<Vec3> sources;
+};
+
+Found find_distances(const Mesh& mesh, const Options& options) {
     const RefinementHistory unrefined(mesh);
     SurfaceState surface(mesh, mesh.positions, unrefined);
-    std::vector<SurfacePoint> sources;
+    Found found;
+    DistanceQuery query;
+    query.anchors.emplace_back();
     for (const std::string& text : options.from) {
-        sources.push_back(surface.resolve(parse_address(text), "--from " + text));
+        const SurfacePoint point = surface.resolve(parse_address(text), "--from " + text);
+        query.anchors[0].points.push_back(point);
+        found.sources.push_back(surface.position_of(point));
     }
-    const Metric metric = options.metric == "euclidean" ? Metric::euclidean : Metric::geodesic;
-    return surface.distances(sources, metric, method_named(options.method), options.radius.value_or(infinity))
-        .dense(mesh.vertex_count());
+    query.metric = options.metric == "euclidean" ? Metric::euclidean : Metric::geodesic;
+    query.method = method_named(options.method);
+    query.radius = options.radius.value_or(infinity);
+    found.distances = surface.distances({&query, 1})[0].dense(mesh.vertex_count());
+    return found;
 }
 
 /// One per line: every double reads back as itself.
@@ -65,21 +76,27 @@ std::string lines_of(const std::vector<double>& numbers) {
     return text;
 }
 
+void draw(const Mesh& mesh, const Found& found, const Options& options) {
+    const auto device = std::make_shared<Device>();
+    draw_distances(*device, mesh, found.distances, found.sources, options.picture);
+    check_validation(device);
+    const double farthest = farthest_of(found.distances);
+    const std::string lines =
+        farthest > 0 ? "isolines every " + number_text(isoline_spacing(farthest)) + ", " : "";
+    write_text("", lines + "farthest " + rounded_text(farthest) + " -> " + options.picture.path + "\n");
+}
+
 void run(const Options& options, CommandContext& context) {
     check(options);
     const Mesh mesh = read_mesh(options.mesh, context.log);
     context.progress.report("distance", 0);
-    const std::vector<double> distances = find_distances(mesh, options);
+    const Found found = find_distances(mesh, options);
     context.progress.report("distance", 1);
-    if (!options.picture.wanted()) {
-        write_text(options.output, lines_of(distances));
-        return;
+    if (options.picture.wanted()) {
+        draw(mesh, found, options);
     }
-    const auto device = std::make_shared<Device>();
-    draw_distances(*device, mesh, distances, options.picture);
-    check_validation(device);
-    if (!options.output.empty()) {
-        write_text(options.output, lines_of(distances));
+    if (!options.output.empty() || !options.picture.wanted()) {
+        write_text(options.output, lines_of(found.distances));
     }
 }
 

@@ -1,50 +1,95 @@
 #include "app/cli/distance_picture.h"
 
+#include "engine/mesh/sample_shapes.h"
+
 #include <cmath>
 
 namespace anvil {
 
 namespace {
 
-const glm::vec3 near_colour{0.95F, 0.55F, 0.15F};
-const glm::vec3 far_colour{0.20F, 0.35F, 0.80F};
-const glm::vec3 unreached_colour{0.75F, 0.75F, 0.75F};
+const glm::vec3 unreached_colour{0.78F, 0.78F, 0.78F};
+const glm::vec3 source_colour{0.62F, 0.05F, 0.12F};
+constexpr double source_size = 0.006; // radius of a ball over the mesh's diagonal
 
-glm::vec3 colour_of(double distance, double largest) {
-    if (!std::isfinite(distance)) {
-        return unreached_colour;
+bool is_reached(const Triangle& t, const std::vector<double>& distances) {
+    return std::isfinite(distances[t[0]]) && std::isfinite(distances[t[1]]) && std::isfinite(distances[t[2]]);
+}
+
+/// A ball at each source, all in one mesh.
+Mesh balls(const std::vector<Vec3>& centres, double radius) {
+    const Mesh ball = make_sample("icosphere", 160);
+    Mesh mesh;
+    for (const Vec3& centre : centres) {
+        const auto first = static_cast<uint32_t>(mesh.positions.size());
+        for (const Vec3& p : ball.positions) {
+            mesh.positions.push_back(centre + radius * p);
+        }
+        for (const Triangle& t : ball.triangles) {
+            mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+        }
     }
-    constexpr double bands = 12;
-    const double t = largest > 0 ? distance / largest : 0;
-    const double phase = t * bands - std::floor(t * bands);
-    const float shade = phase < 0.15 && t > 0 ? 0.6F : 1.0F;
-    return shade * glm::mix(near_colour, far_colour, static_cast<float>(t));
+    return mesh;
+}
+
+std::vector<glm::vec3> relative(const std::vector<Vec3>& positions, const Vec3& origin) {
+    std::vector<glm::vec3> result;
+    result.reserve(positions.size());
+    for (const Vec3& p : positions) {
+        result.emplace_back(p - origin);
+    }
+    return result;
 }
 
 } // namespace
 
-void draw_distances(Device& device, const Mesh& mesh, const std::vector<double>& distances,
-                    const PictureOptions& options) {
-    double largest = 0;
-    for (const double distance : distances) {
-        if (std::isfinite(distance)) {
-            largest = std::max(largest, distance);
+double isoline_spacing(double farthest) {
+    constexpr double most_lines = 20;
+    const double power = std::pow(10.0, std::floor(std::log10(farthest / most_lines)));
+    for (const double digit : {1.0, 2.0, 5.0}) {
+        if (digit * power * most_lines >= farthest) {
+            return digit * power;
         }
     }
-    const Vec3 origin = bounds(mesh).centre();
-    std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> colours;
-    positions.reserve(mesh.vertex_count());
-    colours.reserve(mesh.vertex_count());
-    for (size_t v = 0; v < mesh.vertex_count(); ++v) {
-        positions.emplace_back(mesh.positions[v] - origin);
-        colours.push_back(colour_of(distances[v], largest));
+    return 10 * power;
+}
+
+double farthest_of(const std::vector<double>& distances) {
+    double farthest = 0;
+    for (const double distance : distances) {
+        farthest = std::isfinite(distance) ? std::max(farthest, distance) : farthest;
     }
-    PictureSurface surface;
-    surface.positions = positions;
-    surface.triangles = mesh.triangles;
-    surface.colours = colours;
-    write_picture(device, std::span(&surface, 1), options);
+    return farthest;
+}
+
+void draw_distances(Device& device, const Mesh& mesh, const std::vector<double>& distances,
+                    const std::vector<Vec3>& sources, const PictureOptions& options) {
+    const Box box = bounds(mesh);
+    const double farthest = farthest_of(distances);
+    std::vector<Triangle> reached, unreached;
+    for (const Triangle& t : mesh.triangles) {
+        (is_reached(t, distances) ? reached : unreached).push_back(t);
+    }
+    const auto positions = relative(mesh.positions, box.centre());
+    const std::vector<float> lengths(distances.begin(), distances.end());
+    const Mesh marks = balls(sources, source_size * box.diagonal());
+    const auto mark_positions = relative(marks.positions, box.centre());
+
+    std::vector<PictureSurface> surfaces(3);
+    surfaces[0].positions = positions;
+    surfaces[0].triangles = reached;
+    if (farthest > 0) {
+        surfaces[0].tint = lengths;
+        surfaces[0].contour_spacing = static_cast<float>(isoline_spacing(farthest));
+        surfaces[0].contour_end = static_cast<float>(farthest);
+    }
+    surfaces[1].positions = positions;
+    surfaces[1].triangles = unreached;
+    surfaces[1].base_colour = unreached_colour;
+    surfaces[2].positions = mark_positions;
+    surfaces[2].triangles = marks.triangles;
+    surfaces[2].base_colour = source_colour;
+    write_picture(device, surfaces, options);
 }
 
 } // namespace anvil

@@ -8,9 +8,15 @@
 
 namespace anvil {
 
-/// The mesh coloured from orange (0) to blue (the largest finite distance) with twelve dark bands; grey where
-/// the distance is infinite. @throws DeviceError, WriteError
+/// A round length, 1, 2 or 5 times a power of ten, that goes 7 to 20 times into `farthest` > 0.
+double isoline_spacing(double farthest);
+
+/// The mesh coloured by distance (one per vertex) with lines of equal distance every isoline_spacing(), grey
+/// where a face is not reached as a whole, and a ball at each of `sources`. @throws DeviceError, WriteError
 void draw_distances(Device& device, const Mesh& mesh, const std::vector<double>& distances,
-                    const PictureOptions& options);
+                    const std::vector<Vec3>& sources, const PictureOptions& options);
+
+/// The largest finite one; 0 if there is none.
+double farthest_of(const std::vector<double>& distances);
 
 } // namespace anvil

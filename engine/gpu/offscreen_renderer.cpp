@@ -18,6 +18,8 @@ struct Drawable {
     Buffer indices;
     uint32_t index_count = 0;
     float opacity = 1;
+    float contour_spacing = 0;
+    float contour_end = 1;
     double depth = 0; ///< of its centre, from the eye
 };
 
@@ -25,6 +27,8 @@ Drawable upload(DeviceState& device, const PictureSurface& surface, const glm::d
     const SurfaceGeometry geometry = surface_geometry(surface, view);
     Drawable drawable;
     drawable.opacity = surface.opacity;
+    drawable.contour_spacing = surface.contour_spacing;
+    drawable.contour_end = surface.contour_end;
     drawable.index_count = static_cast<uint32_t>(geometry.indices.size());
     drawable.depth = -(view * glm::dvec4(bounds(surface).centre(), 1)).z;
     const std::span<const SurfaceVertex> vertices = geometry.vertices;
@@ -86,6 +90,8 @@ struct OffscreenRenderer::Impl {
     void draw(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& pipeline,
               const Drawable& item, shader::SurfaceParameters parameters) const {
         parameters.opacity = item.opacity;
+        parameters.contour_spacing = item.contour_spacing;
+        parameters.contour_end = item.contour_end;
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
         commands.pushConstants<shader::SurfaceParameters>(
             *pipelines.layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0,
@@ -155,7 +161,8 @@ Picture OffscreenRenderer::render(std::span<const PictureSurface> surfaces, cons
     }
     std::stable_sort(items.begin(), items.end(),
                      [](const Drawable& a, const Drawable& b) { return a.depth > b.depth; });
-    const shader::SurfaceParameters parameters{camera.projection, 1.0F, view.orthographic ? 1.0F : 0.0F};
+    const shader::SurfaceParameters parameters{camera.projection, 1.0F, view.orthographic ? 1.0F : 0.0F, 0.0F,
+                                               1.0F};
     if (impl_->format.samples != vk::SampleCountFlagBits::e1) {
         return impl_->picture_of(items, parameters, size.width, size.height);
     }

@@ -21,6 +21,10 @@ struct PictureSurface {
     std::span<const float> tint = {};        ///< a vertex: 0 (base colour) .. blue .. 1 (orange); empty: none
     std::span<const glm::vec3> colours = {}; ///< a vertex, sRGB 0..1, in place of base_colour; empty: none
     glm::vec3 base_colour{0.835F, 0.745F, 0.665F}; ///< sRGB 0..1
+    /// > 0: `tint` holds lengths, coloured from yellow (0) to blue (contour_end) in place of all else, with a
+    /// line at every multiple of the spacing.
+    float contour_spacing = 0;
+    float contour_end = 1;
     float opacity = 1; ///< < 1: drawn after the opaque ones, farthest first, back faces first
 };
 

@@ -15,7 +15,7 @@ namespace anvil {
 
 namespace {
 
-static_assert(sizeof(shader::SurfaceParameters) == 72);
+static_assert(sizeof(shader::SurfaceParameters) == 80);
 
 /// What differs between the pipelines.
 struct PipelineKind {

@@ -12,6 +12,27 @@ vec3 tinted(vec3 base, float tint) {
     return mix(base, ramp, 0.78 * smoothstep(0.0, 0.14, t));
 }
 
+/// Lengths from yellow (0) over grey to blue (1): ever darker, so that every kind of colour vision tells them
+/// apart; light enough for dark lines.
+vec3 length_colour(float t) {
+    const vec3 near = vec3(0.96, 0.76, 0.16);
+    const vec3 middle = vec3(0.50, 0.50, 0.43);
+    const vec3 far = vec3(0.055, 0.17, 0.52);
+    t = clamp(t, 0.0, 1.0);
+    return t < 0.5 ? mix(near, middle, 2.0 * t) : mix(middle, far, 2.0 * t - 1.0);
+}
+
+/// How much of a pixel the line at the nearest multiple of 1 covers; every fifth is wider, 0 has none. Lines
+/// fade where they come closer than a few pixels.
+float contour_cover(float value) {
+    float a_pixel = max(length(vec2(dFdx(value), dFdy(value))), 1e-12);
+    float nearest = floor(value + 0.5);
+    float half_width = mod(nearest, 5.0) < 0.5 ? 1.3 : 0.7; // pixels
+    float away = abs(value - nearest) / a_pixel;
+    float cover = 1.0 - smoothstep(half_width - 0.5, half_width + 0.5, away);
+    return nearest < 0.5 ? 0.0 : cover * (1.0 - smoothstep(0.15, 0.4, a_pixel));
+}
+
 const vec3 studio_key = normalize(vec3(-0.65, 0.70, 0.50));
 
 /// What glass mirrors of the lights, whatever its opacity.

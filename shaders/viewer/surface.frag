@@ -19,7 +19,13 @@ void main() {
     vec3 flat_normal = cross(dFdx(view_position), dFdy(view_position));
     vec3 n = dot(view_normal, view_normal) > 1e-12 ? view_normal : flat_normal;
     n = normalize(gl_FrontFacing ? n : -n);
-    vec3 base = tinted(vertex_colour, vertex_tint);
+    vec3 base;
+    if (parameters.contour_spacing > 0.0) {
+        base = length_colour(vertex_tint / parameters.contour_end);
+        base = mix(base, vec3(0.012), 0.85 * contour_cover(vertex_tint / parameters.contour_spacing));
+    } else {
+        base = tinted(vertex_colour, vertex_tint);
+    }
     vec3 light = studio_light(n, to_eye, base);
     if (!gl_FrontFacing && parameters.opacity >= 1.0) {
         light *= 0.6; // the inside of an open surface
