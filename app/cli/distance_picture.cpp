@@ -44,7 +44,7 @@ std::vector<glm::vec3> relative(const std::vector<Vec3>& positions, const Vec3& 
 } // namespace
 
 double isoline_spacing(double farthest) {
-    constexpr double most_lines = 20;
+    constexpr double most_lines = 30;
     const double power = std::pow(10.0, std::floor(std::log10(farthest / most_lines)));
     for (const double digit : {1.0, 2.0, 5.0}) {
         if (digit * power * most_lines >= farthest) {

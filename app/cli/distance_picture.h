@@ -8,7 +8,7 @@
 
 namespace anvil {
 
-/// A round length, 1, 2 or 5 times a power of ten, that goes 7 to 20 times into `farthest` > 0.
+/// A round length, 1, 2 or 5 times a power of ten, that goes 12 to 30 times into `farthest` > 0.
 double isoline_spacing(double farthest);
 
 /// The mesh coloured by distance (one per vertex) with lines of equal distance every isoline_spacing(), grey

@@ -159,6 +159,41 @@ TEST_CASE("tint runs from the base colour over blue to orange") {
     CHECK(tinted(1).r > tinted(1).b + 80);
 }
 
+TEST_CASE(
+    "lengths darken steadily, with a thin dark line at every multiple of the spacing and nowhere else") {
+    const CheckedDevice device;
+    OffscreenRenderer renderer(*device);
+    const Shape wall = square({0, 0, 0}, 1);
+    const std::vector<float> lengths = {0, 2, 2, 0}; // grows by 1 a unit along x
+    PictureSurface surface = wall.surface();
+    surface.tint = lengths;
+    surface.contour_spacing = 0.25F;
+    surface.contour_end = 2;
+    PictureView view = flat_view("front");
+    view.margin = 0;
+    const Picture picture = renderer.render(std::array{surface}, view, {400, 400}); // 50 pixels a line
+    const auto light = [&](uint32_t x, uint32_t y) {
+        const glm::ivec3 p = pixel(picture, x, y);
+        return 0.2 * p.r + 0.7 * p.g + 0.1 * p.b; // about as an eye weighs them
+    };
+    for (const uint32_t y : {100U, 300U}) {
+        for (uint32_t x = 12; x < 388; ++x) {
+            INFO(x);
+            const bool between = x % 50 > 4 && x % 50 < 45; // pixels away from lines
+            CHECK((!between || std::abs(light(x + 1, y) - light(x, y)) < 3));
+        }
+        for (uint32_t x = 25; x + 50 < 400; x += 50) {
+            CHECK(light(x + 50, y) < light(x, y) - 3);
+        }
+        for (uint32_t line = 50; line < 400; line += 50) {
+            INFO(line);
+            CHECK(std::min(light(line - 1, y), light(line, y)) < light(line - 6, y) - 30);
+            CHECK(light(line + 5, y) > light(line - 6, y) - 10);
+        }
+        CHECK(light(1, y) > light(10, y) - 5); // none at 0
+    }
+}
+
 TEST_CASE("a perspective picture from any side keeps the whole scene inside its margin") {
     const CheckedDevice device;
     OffscreenRenderer renderer(*device);
