@@ -234,3 +234,39 @@ TEST_CASE("the report names each handle's method, exact where faces share an edg
     REQUIRE(sheets.mesh.vertex_count() > 6000);
     CHECK(methods(sheets.mesh, "'radius': 200, ").first == "exact");
 }
+
+TEST_CASE("refinement keeps the crease along a line and around a face, and addresses find them again") {
+    const Mesh mesh = quad_square(10);
+    const Vec3 a = mesh.positions[46], b = mesh.positions[74];
+    const std::string line = "{'polyline': [{'vertex': 46}, {'vertex': 74}]}";
+    const std::string edit = "{ 'kind': 'translate', 'radius': 0.15, 'shape': 'linear', 'method': 'exact', "
+                             "'refine': {'tolerance': 0.02}, 'anchors': [ {'at': [" +
+                             line +
+                             ", {'face': 88}]} ], 'handles': [ {'at': {'vertex': 46}, 'by': [0,0,0.1]} ] }";
+    const ForgeResult result = forged_on_cpu(mesh, edit_recipe(edit));
+    REQUIRE(result.refined);
+    const std::span<const uint32_t> face = mesh.polygon(88);
+    double worst = 0;
+    size_t on_line = 0;
+    for (size_t v = 0; v < result.positions.size(); ++v) {
+        const Vec3 p(result.positions[v].x, result.positions[v].y, 0);
+        double d = to_segment(p, a, b);
+        on_line += d < 1e-9 ? 1 : 0;
+        for (size_t k = 0; k < 4; ++k) {
+            d = std::min(d, to_segment(p, mesh.positions[face[k]], mesh.positions[face[(k + 1) % 4]]));
+        }
+        worst = std::max(worst, std::abs(result.positions[v].z - 0.1 * std::max(0.0, 1 - d / 0.15)));
+    }
+    // The line crosses some five columns and two rows of cells with their diagonals.
+    CHECK(on_line >= 10);
+    // A new vertex gets what is linear between the ends of its edge; where fronts are round, past the ends of
+    // the line, that is off by h^2 / 8 d: cells of h = 0.1 at d = 0.1 give 0.0125 of the radius of 0.15.
+    CHECK(worst < 0.1 * 0.0125 / 0.15);
+    // The same once more, on the refined mesh: the face is all its parts.
+    const ForgeResult twice = forged_on_cpu(mesh, edit_recipe(edit + ", " + edit));
+    double highest = 0;
+    for (const uint32_t corner : face) {
+        highest = std::max(highest, std::abs(twice.positions[corner].z - 0.2));
+    }
+    CHECK(highest < 1e-9);
+}
