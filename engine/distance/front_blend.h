@@ -39,7 +39,8 @@ struct FrontArrival {
     float distance = never;
     FrontPoint centre; ///< in the frame of the sight
     uint32_t label = 0;
-    /// How much the two fronts disagree at the ends of the edge; its length if they cannot be compared.
+    /// How much the two fronts disagree at the ends of the edge; its length if they cannot be compared, 0 if
+    /// both have their ways elsewhere.
     float miss = 0;
 };
 
@@ -107,6 +108,11 @@ inline FrontArrival blend_fronts(const Front& left, const Front& right, const Ed
     const float miss = std::max(std::fabs(miss_a), std::fabs(miss_b));
     result.miss = a_sees && b_sees && same ? miss : o.length;
     if (!a_valid && !b_valid) {
+        // Both rays pass the same end: the way to the point leads over another edge.
+        if (a_sees && b_sees &&
+            (std::max(a_cross, b_cross) < o.begin || std::min(a_cross, b_cross) > o.finish)) {
+            result.miss = 0;
+        }
         return result;
     }
     const float a_reach = left.offset + distance_between(o.x - a.x, o.y + a.y);

@@ -103,6 +103,10 @@ void VertexFronts::update(uint32_t from, const Opposite& o) {
                           0,        o.length};
     FrontArrival way = blend_fronts(fronts_[left], fronts_[right], sight, false);
     way.centre.y = -way.centre.y;
+    // What has marched already has had its closer look.
+    if (is_reached(c) && is_settled(c) && way.distance >= known) {
+        return;
+    }
     if (way.miss > fronts_agree * std::min(fronts_[left].distance, fronts_[right].distance)) {
         const LookBehind look(table_, fronts_, run_stamp_, settled_bit);
         const FrontArrival deeper = look.best_way(left, right, sight);
