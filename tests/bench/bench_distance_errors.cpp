@@ -7,6 +7,7 @@
 // runs.
 #include "engine/core/log.h"
 #include "engine/distance/distance.h"
+#include "engine/distance/fan_table.h"
 #include "engine/mesh/mesh_reader.h"
 #include "engine/mesh/sample_shapes.h"
 
@@ -162,6 +163,29 @@ std::vector<double> exact_field(const Case& c, const GeodesicSolver& solver, uin
     return field;
 }
 
+/// What is special about the surface at a vertex that a mesh misses its aim at.
+std::string reason(const Mesh& mesh, uint32_t vertex) {
+    const TriangleGraph graph = make_triangle_graph(
+        mesh.triangles, mesh.positions, number_as_given(mesh.triangles.size(), mesh.vertex_count()));
+    const auto is_one_fan = [&](uint32_t v) {
+        return fan_shape(graph, v, graph.sides_leaving(v).front()).kind != FanShape::Kind::tangled;
+    };
+    bool one_fan = is_one_fan(vertex), smooth = true;
+    for (const uint32_t side : graph.sides_leaving(vertex)) {
+        for (const uint32_t near : {graph.to(side), graph.apex(side)}) {
+            one_fan = one_fan && is_one_fan(near);
+            double total = 0;
+            for (const uint32_t corner : graph.sides_leaving(near)) {
+                total += corner_angle(graph, corner);
+            }
+            smooth = smooth && std::abs(total - 2 * M_PI) < 0.3;
+        }
+    }
+    return !one_fan ? "beside a vertex whose faces are not one fan"
+           : smooth ? "far from anything sharp"
+                    : "beside a vertex more than 0.3 rad from flat: too coarse";
+}
+
 struct Worst {
     double error, edges;
     uint32_t source, vertex;
@@ -202,6 +226,10 @@ void tell(const Case& c, bool chosen, size_t most_worst, Totals& totals) {
                 chosen ? "chosen" : "", c.mesh.vertex_count(), c.sources.size(), 100 * mean, 100 * most,
                 above, count, worst.front().edges, mean <= mean_aim ? "" : "MEAN ",
                 most <= max_aim ? "" : "MAX ", unreached == 0 ? "" : "UNREACHED");
+    if (most > max_aim) {
+        std::printf("      %.3f %% beyond the aim, %s\n", 100 * (most - max_aim),
+                    reason(c.mesh, worst.front().vertex).c_str());
+    }
     for (size_t i = 0; i < (most_worst > 0 ? kept : 0); ++i) {
         std::printf("      %+8.3f %% at vertex %u, %.1f edges from %u\n", 100 * worst[i].error,
                     worst[i].vertex, worst[i].edges, worst[i].source);
