@@ -29,7 +29,7 @@ void read_tolerances(const JsonReader& refine, Refine& result) {
 } // namespace
 
 Refine read_refine(const JsonReader& refine) {
-    refine.check_keys({"criterion", "tolerance", "min_edge", "max_vertices"});
+    refine.check_keys({"criterion", "tolerance", "min_edge", "max_vertices", "flip"});
     Refine result;
     if (const auto criterion = refine.find("criterion")) {
         result.criterion = criterion->word<RefineCriterion>({{"shape", RefineCriterion::shape},
@@ -42,6 +42,9 @@ Refine read_refine(const JsonReader& refine) {
     }
     if (const auto max_vertices = refine.find("max_vertices")) {
         result.max_vertices = max_vertices->whole(0, no_index - 1);
+    }
+    if (const auto flip = refine.find("flip")) {
+        result.flip = flip->boolean();
     }
     return result;
 }
@@ -63,6 +66,9 @@ nlohmann::ordered_json written(const Refine& refine) {
     result["min_edge"] = refine.min_edge;
     if (refine.max_vertices) {
         result["max_vertices"] = *refine.max_vertices;
+    }
+    if (refine.flip) {
+        result["flip"] = true;
     }
     return result;
 }

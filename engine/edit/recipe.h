@@ -253,6 +253,7 @@ struct Refine {
     double space_tolerance = 0;     ///< world units, > 0 where the criterion needs it; of the moved surface
     double min_edge = 0;            ///< world units: no edge is cut into shorter pieces
     std::optional<uint32_t> max_vertices; ///< of the mesh; absent: 1,000,000, or twice what it has
+    bool flip = false;                    ///< flip new edges for larger angles
 
     bool operator==(const Refine&) const = default;
 };
@@ -273,7 +274,7 @@ struct Edit {
     std::optional<Steps> steps; ///< absent: adaptive, at most 4096; 32 equal ones for `paper`
     bool least_squares = false;
     std::optional<Refine> refine; ///< absent: the mesh keeps its vertices
-    double amount = 1; ///< in [0, 1]
+    double amount = 1;            ///< in [0, 1]
 
     bool operator==(const Edit&) const = default;
 };

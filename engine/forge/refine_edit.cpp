@@ -116,6 +116,7 @@ EditRegion region_after(const EditRegion& before, const RefineState& state,
 RefineOptions options_of(const Refine& refine, size_t vertex_count) {
     RefineOptions options;
     options.min_edge = refine.min_edge;
+    options.flip = refine.flip;
     switch (refine.criterion) {
     case RefineCriterion::shape:
         options.tolerance = refine.shape_tolerance;

@@ -13,6 +13,7 @@ struct RefineOptions {
     double tolerance = 0.001;        ///< in the criterion's unit, > 0
     double min_edge = 0;             ///< world units: no edge is cut into pieces shorter than this
     size_t max_vertices = 1'000'000; ///< of the whole mesh, old and new
+    bool flip = false; ///< at the end, flip edges inside divided triangles for larger angles (see flip_edges)
 };
 
 enum class RefineStop { tolerance, min_edge, max_vertices };

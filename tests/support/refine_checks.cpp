@@ -92,7 +92,9 @@ size_t count_flipped(const Mesh& before, const RefinedMesh& after) {
     size_t count = 0;
     for (size_t t = 0; t < after.mesh.triangles.size(); ++t) {
         const Vec3 old_normal = normal_of(before, before.triangles[after.roots[t]]);
-        count += !(glm::dot(normal_of(after.mesh, after.mesh.triangles[t]), old_normal) > 0);
+        // A triangle that had no area has no way to look.
+        count += glm::length(old_normal) > 0 &&
+                 !(glm::dot(normal_of(after.mesh, after.mesh.triangles[t]), old_normal) > 0);
     }
     return count;
 }

@@ -18,7 +18,8 @@ RefineState state_of(const Mesh& mesh, std::vector<HandleField> handles);
 /// distance along it from the virtual source of section 3.
 double sampled_error(const Mesh& mesh, const std::vector<HandleField>& handles, int samples);
 
-/// Triangles that do not look the way of the triangle that they are part of, or have no area.
+/// Triangles that do not look the way of the triangle that they are part of, or have no area where
+/// it has one.
 size_t count_flipped(const Mesh& before, const RefinedMesh& after);
 
 double area_of(const Mesh& mesh);

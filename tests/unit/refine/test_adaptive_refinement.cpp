@@ -1,9 +1,13 @@
+#include "engine/core/log.h"
+#include "engine/mesh/mesh_reader.h"
 #include "engine/mesh/sample_shapes.h"
 #include "tests/support/forging.h"
 #include "tests/support/mesh_checks.h"
 #include "tests/support/refine_checks.h"
 
 #include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
 #include <random>
 
 using namespace anvil;
@@ -122,4 +126,87 @@ TEST_CASE("The rims of a cone and of a plateau on coarse meshes are closed chain
             }
         }
     }
+}
+
+TEST_CASE("Flips make angles larger and break neither tolerance nor rim nor surface") {
+    const Mesh plane = coarse_plane();
+    const Mesh sphere = make_sample("icosphere", 162);
+    for (const Mesh* mesh : {&plane, &sphere}) {
+        const HandleField handle =
+            field_from(*mesh, {nearest_vertex(*mesh, {0, 0, 1})}, "plateau", mesh == &plane ? 0.3 : 0.7);
+        RefineOptions options{0.01, 0, 100000};
+        const Refined plain = refined(*mesh, {handle}, options);
+        options.flip = true;
+        const Refined flipped = refined(*mesh, {handle}, options);
+        CHECK(flipped.report.added == plain.report.added);
+        CHECK(flipped.mesh.mesh.triangles != plain.mesh.mesh.triangles);
+        check_surface(*mesh, flipped.mesh);
+        CHECK(sampled_error(flipped.mesh.mesh, flipped.handles, 60) <= 0.01 * 1.02);
+        const Rim rim =
+            rim_of(flipped.mesh.mesh, flipped.handles[0], 0.9 * handle.radius, 1e-6 * handle.radius);
+        CHECK(rim.odd_vertices == 0);
+        CHECK(rim.crossed_triangles == 0);
+        CHECK(facts_of(flipped.mesh.mesh).min_angle >= facts_of(plain.mesh.mesh).min_angle);
+    }
+}
+
+// Takes minutes; run by its tag. ANVIL_TEST_MESHES names a folder of further meshes.
+TEST_CASE("A thousand random edits leave every edge within the tolerance", "[.thousand]") {
+    std::vector<Mesh> meshes{make_sample("icosphere", 642), make_sample("torus", 500),
+                             make_sample("cube", 300),      make_sample("hand", 2000),
+                             make_sample("bust", 1500),     coarse_plane()};
+    if (const char* folder = std::getenv("ANVIL_TEST_MESHES")) {
+        for (const auto& file : std::filesystem::directory_iterator(folder)) {
+            Log log;
+            if (file.path().extension() != ".md" && file.file_size() < 1'000'000) {
+                meshes.push_back(read_mesh(file.path(), log));
+            }
+        }
+    }
+    std::mt19937 random(12);
+    size_t added = 0;
+    size_t most_rounds = 0;
+    double worst = 0;
+    double least_piece = 1;
+    for (int trial = 0; trial < 1000; ++trial) {
+        const Mesh& mesh = meshes[trial % meshes.size()];
+        const double size = bounds(mesh).diagonal();
+        std::uniform_int_distribution<uint32_t> triangle(0, static_cast<uint32_t>(mesh.triangles.size() - 1));
+        std::uniform_real_distribution<double> radius(0.03 * size, 0.15 * size);
+        std::vector<HandleField> handles;
+        for (int h = 0; h <= trial % 3; ++h) {
+            std::vector<uint32_t> anchors(trial % 4 == 3 ? 2 : 1);
+            for (uint32_t& anchor : anchors) {
+                anchor = mesh.triangles[triangle(random)][0];
+            }
+            const double r = radius(random);
+            handles.push_back(field_from(mesh, anchors, preset_names()[random() % preset_names().size()], r));
+        }
+        const double tolerance = trial % 2 == 0 ? 0.02 : 0.05;
+        const Refined result = refined(mesh, handles, {tolerance, 0, 10'000'000});
+        INFO("trial " << trial << " mesh " << trial % meshes.size() << " added " << result.report.added);
+        CHECK(result.report.stopped_by == RefineStop::tolerance);
+        CHECK(count_flipped(mesh, result.mesh) == 0);
+        const MeshFacts before = facts_of(mesh);
+        const MeshFacts after = facts_of(result.mesh.mesh);
+        if (before.non_manifold_edges == 0) {
+            // Pieces of an edge that is met too often are counted each, and two faces on the same corners
+            // share the edges that divide them.
+            CHECK(after.euler == before.euler);
+            CHECK(after.non_manifold_edges == 0);
+        }
+        CHECK(area_of(result.mesh.mesh) == Approx(area_of(mesh)).epsilon(1e-12));
+        CHECK(after.volume == Approx(before.volume).epsilon(1e-11).margin(1e-12 * size * size * size));
+        CHECK(boundary_length(result.mesh.mesh) == Approx(boundary_length(mesh)).epsilon(1e-12));
+        const double error = sampled_error(result.mesh.mesh, result.handles, 50) / tolerance;
+        CHECK(error <= 1.02);
+        worst = std::max(worst, error);
+        added += result.report.added;
+        most_rounds = std::max(most_rounds, result.report.rounds);
+        for (const VertexParents& p : result.mesh.parents) {
+            least_piece = std::min({least_piece, p.place, 1 - p.place});
+        }
+    }
+    WARN("added " << added << ", rounds at most " << most_rounds << ", error at most " << worst
+                  << " of the tolerance, least piece " << least_piece);
 }
