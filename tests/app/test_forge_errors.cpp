@@ -55,7 +55,7 @@ const std::vector<BadRecipe> bad_recipes = {
     {"two numbers for a vector", translate(R"({"at": {"vertex": 3}, "by": [0, 1]})"), {"by"}},
     {"neither by nor to", translate(R"({"at": {"vertex": 3}})"), {"by"}},
     {"both by and to", translate(R"({"at": {"vertex": 3}, "by": [0, 1, 0], "to": [0, 1, 0]})"), {"by", "to"}},
-    {"no handles", recipe_text(R"([{"kind": "translate", "handles": []}])"), {"handles"}},
+    {"no handles", recipe_text(R"([{"kind": "translate", "handles": []}])"), {"at least one handle"}},
     {"rotation without axis",
      recipe_text(R"([{"kind": "rotate", "radius": 1, "handles": [{"at": {"vertex": 3}, "degrees": 9}]}])"),
      {"axis"}},
