@@ -97,6 +97,7 @@ vec4 volume_texel(uint volume, vec3 uvw) {
 
 #include "shared/shape_function.h"
 #include "shared/occluder.h"
+#include "shared/path.h"
 #include "shared/contact.h"
 
 /// What the variant knows, as constants.

@@ -1,7 +1,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel_for.h"
 #include "engine/deform/backend.h"
-#include "engine/deform/deform_kernel.h"
+#include "engine/deform/cpu_kernel.h"
 
 namespace anvil {
 
@@ -9,21 +9,18 @@ namespace {
 
 class CpuSession final : public DeformSession {
   public:
-    explicit CpuSession(const DeformInput& input) : input_(input), table_(segment_table(input)) {
+    explicit CpuSession(const DeformInput& input) : input_(input) {
         if (input_.start_distances.empty()) {
             input_.start_distances.assign(input_.points.size(), infinity);
         }
     }
 
     void update(const DeformMotion& motion) override {
-        check_sizes(input_, motion);
+        const CpuKernel prototype(input_, motion);
         results_.resize(input_.points.size());
         ready_ = true;
-        const std::vector<kernel::f64::Pose> poses = kernel_poses(input_, motion);
-        kernel::f64::DeformKernel prototype = kernel(motion);
-        prototype.poses = poses.data();
         parallel_for(results_.size(), 256, [&](size_t begin, size_t end) {
-            kernel::f64::DeformKernel kernel = prototype;
+            kernel::f64::DeformKernel kernel = prototype.kernel();
             for (size_t i = begin; i < end; ++i) {
                 const kernel::f64::VertexResult r = kernel.deformed(static_cast<uint32_t>(i));
                 results_[i] = {r.displacement, r.steps, r.samples, r.flags};
@@ -41,23 +38,7 @@ class CpuSession final : public DeformSession {
     }
 
   private:
-    kernel::f64::DeformKernel kernel(const DeformMotion& motion) const {
-        kernel::f64::DeformKernel kernel;
-        kernel.segments = table_.segments.data();
-        kernel.nodes = input_.occluders.nodes.data();
-        kernel.occluders = input_.occluders.occluders.data();
-        kernel.volumes = input_.occluders.volumes.data();
-        kernel.params = kernel_params(input_, motion);
-        kernel.points = input_.points.data();
-        kernel.fields = input_.fields.data();
-        kernel.shapes = table_.shapes.data();
-        kernel.targets = motion.targets.data();
-        kernel.start_distances = input_.start_distances.data();
-        return kernel;
-    }
-
     DeformInput input_;
-    SegmentTable table_;
     std::vector<PointResult> results_;
     bool ready_ = false;
 };

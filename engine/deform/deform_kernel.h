@@ -8,7 +8,7 @@
 
 namespace anvil::kernel::f64 {
 
-/// The functions of shaders/shared/contact.h over arrays that outlive it.
+/// The functions of shaders/shared/{path,contact}.h over arrays that outlive it.
 struct DeformKernel : OccluderKernel {
     KernelParams params{};
     const real3* points = nullptr;
@@ -21,6 +21,8 @@ struct DeformKernel : OccluderKernel {
     const Occluder& occluder_at(uint k) const { return occluders[k]; }
 
 // NOLINTBEGIN: compiled as GLSL too
+#include "shaders/shared/path.h"
+
 #include "shaders/shared/contact.h"
     // NOLINTEND
 };

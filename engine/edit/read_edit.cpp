@@ -230,6 +230,9 @@ void read_options(const JsonReader& edit, Edit& result) {
     if (const auto amount = edit.find("amount")) {
         result.amount = amount->within(0, 1);
     }
+    if (const auto dilation = edit.find("dilation")) {
+        result.dilation = read_dilation(*dilation);
+    }
     if (const auto pinned = edit.find("pinned")) {
         result.pinned = read_addresses(*pinned);
     }
@@ -266,8 +269,9 @@ void check_handleless(const JsonReader& edit, const Edit& parsed) {
 
 Edit read_edit(const JsonReader& edit) {
     edit.check_keys({"kind", "handles", "anchors", "axis", "sweep", "metric", "method", "radius", "shape",
-                     "occluders", "steps", "least_squares", "amount", "pinned", "refine", "smooth_surface"},
-                    {"mirror", "dilation"});
+                     "occluders", "steps", "least_squares", "amount", "pinned", "refine", "smooth_surface",
+                     "dilation"},
+                    {"mirror"});
     Edit result;
     result.kind = edit.required("kind").word<EditKind>(
         {{"translate", EditKind::translate}, {"rotate", EditKind::rotate}});

@@ -258,6 +258,18 @@ struct Refine {
     bool operator==(const Refine&) const = default;
 };
 
+enum class DilationForm { depth, volume };
+
+/// Contact dilation: what an occluder pushes away swells up beside it.
+struct Dilation {
+    DilationForm form = DilationForm::depth;
+    double amount = 1;           ///< share of the depth or volume that comes back, in [0, 100]
+    bool solve = false;          ///< volume form: the amount that keeps the volume; `amount` is then not used
+    std::optional<double> width; ///< a length > 0; default: half of the edit's radius of influence
+
+    bool operator==(const Dilation&) const = default;
+};
+
 struct Edit {
     EditKind kind = EditKind::translate;
     std::vector<Handle> handles; ///< at least one, or none where an occluder moves
@@ -275,6 +287,7 @@ struct Edit {
     bool least_squares = false;
     std::optional<Refine> refine; ///< absent: the mesh keeps its vertices
     double amount = 1;            ///< in [0, 1]
+    std::optional<Dilation> dilation;
 
     bool operator==(const Edit&) const = default;
 };

@@ -59,6 +59,11 @@ void check_influences(const JsonReader& edit, const Edit& parsed, const Recipe& 
         edit.fail("the influence \"paper\" cannot be mixed with others in one edit; choose by \"occluders\": "
                   "[...]");
     }
+    if (papers > 0 && parsed.dilation) {
+        edit.required("dilation")
+            .fail("the influence \"paper\" has no contact that could dilate; use \"hard\" or "
+                  "\"soft\", or remove this");
+    }
     if (papers > 0 && parsed.steps && parsed.steps->adaptive) {
         edit.required("steps").fail("the influence \"paper\" takes equal steps; give \"count\"");
     }

@@ -23,6 +23,7 @@ Occluder read_occluder(const JsonReader& occluder);
 OccluderUse read_occluder_use(const JsonReader& use);
 std::vector<MotionPose> read_motion(const JsonReader& list);
 Refine read_refine(const JsonReader& refine);
+Dilation read_dilation(const JsonReader& dilation);
 Edit read_edit(const JsonReader& edit);
 
 nlohmann::ordered_json written(const Vec3& v);
@@ -39,6 +40,7 @@ nlohmann::ordered_json written(const OccluderUse& use);
 nlohmann::ordered_json written(const Handle& handle);
 nlohmann::ordered_json written(const Anchors& anchors);
 nlohmann::ordered_json written(const Refine& refine);
+nlohmann::ordered_json written(const Dilation& dilation);
 nlohmann::ordered_json written(const Edit& edit);
 
 } // namespace anvil

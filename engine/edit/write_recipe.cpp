@@ -67,6 +67,9 @@ void write_options(const Edit& edit, Json& result) {
     if (edit.amount != 1) {
         result["amount"] = edit.amount;
     }
+    if (edit.dilation) {
+        result["dilation"] = written(*edit.dilation);
+    }
     if (!edit.pinned.empty()) {
         result["pinned"] = list_of(edit.pinned);
     }
@@ -165,6 +168,19 @@ Json written(const Anchors& anchors) {
     return {{"handle", anchors.handle},
             {"at", list_of(anchors.at)},
             {"blend", anchors.smooth_width ? Json{{"smooth", *anchors.smooth_width}} : Json("min")}};
+}
+
+Json written(const Dilation& dilation) {
+    Json result{{"form", dilation.form == DilationForm::depth ? "depth" : "volume"}};
+    if (dilation.solve) {
+        result["solve"] = true;
+    } else {
+        result["amount"] = dilation.amount;
+    }
+    if (dilation.width) {
+        result["width"] = *dilation.width;
+    }
+    return result;
 }
 
 Json written(const Edit& edit) {

@@ -1,6 +1,8 @@
 #include "engine/forge/forge.h"
 
 #include "engine/core/error.h"
+#include "engine/core/number_text.h"
+#include "engine/forge/dilation.h"
 #include "engine/forge/edit_motion.h"
 #include "engine/forge/edit_region.h"
 #include "engine/forge/refine_edit.h"
@@ -18,6 +20,8 @@
 namespace anvil {
 
 namespace {
+
+constexpr double tolerated_volume_error = 1e-3;
 
 /// Adds the time that it lives to a stage.
 class StageTimer {
@@ -124,10 +128,13 @@ class Forger {
 
         DeformInput input = prepare_input(edit, region, place);
         const EditMotion motion = solve(edit, region, input, place, report);
-        const auto results = deform(input, motion.motion);
+        std::optional<double> free_volume;
+        const auto results = edit.dilation && !input.occluders.empty()
+                                 ? dilated(edit, region, input, motion.motion, place, report, free_volume)
+                                 : deform(input, motion.motion);
         move_vertices(region, input, results, report);
         report_triangles(region, input, report);
-        report_volume(report);
+        report_volume(report, free_volume);
         note_region(region, input);
         result_.report.edits.push_back(std::move(report));
     }
@@ -303,6 +310,23 @@ class Forger {
         return session->download();
     }
 
+    std::vector<PointResult> dilated(const Edit& edit, const EditRegion& region, const DeformInput& input,
+                                     const DeformMotion& motion, const std::string& place, EditReport& report,
+                                     std::optional<double>& free_volume) {
+        const StageTimer timer(seconds().deform);
+        const double width = edit.dilation->width.value_or(0.5 * largest_radius(region));
+        try {
+            DilationResult result = dilate({mesh_, result_.positions, origin_, region, input, motion,
+                                            *edit.dilation, width, volume_.has_value()},
+                                           *surface_);
+            report.dilation = DilationReport{width, result.height, edit.dilation->solve};
+            free_volume = result.free_volume;
+            return std::move(result.points);
+        } catch (const InputError& error) {
+            throw InputError(place + "." + error.what());
+        }
+    }
+
     /// Adds the displacements in double; where occluders are, the exact finish decides.
     void move_vertices(const EditRegion& region, const DeformInput& input,
                        const std::vector<PointResult>& results, EditReport& report) {
@@ -381,7 +405,7 @@ class Forger {
         measure_triangles(at_end(input.occluders), result_.positions, origin_, triangles, *report.contact);
     }
 
-    void report_volume(EditReport& report) {
+    void report_volume(EditReport& report, const std::optional<double>& free_volume) {
         if (!volume_) {
             return;
         }
@@ -389,7 +413,17 @@ class Forger {
         if (report.moved > 0) {
             volume_ = enclosed_volume(mesh(), result_.positions);
         }
-        report.volume = VolumeChange{before, *volume_};
+        report.volume = VolumeChange{before, *volume_, {}};
+        if (!free_volume) {
+            return;
+        }
+        report.volume->without_occluders = std::copysign(*free_volume, *volume_);
+        const double error = std::abs(*volume_ / *report.volume->without_occluders - 1);
+        if (report.dilation && report.dilation->solved && error > tolerated_volume_error) {
+            log_.warn(
+                "dilation leaves the volume " + rounded_text(100 * error) +
+                " % off that of the edit without occluders: raise its \"width\", or the number of steps");
+        }
     }
 
     void note_region(const EditRegion& region, const DeformInput& input) {

@@ -33,6 +33,13 @@ struct StepCounts {
 struct VolumeChange {
     double before = 0;
     double after = 0;
+    std::optional<double> without_occluders{}; ///< of an edit with dilation: what it would be
+};
+
+struct DilationReport {
+    double width = 0;
+    double height = 0; ///< what the steps raised at most, summed over them
+    bool solved = false;
 };
 
 /// What refinement did; angles in degrees, of the triangles in the region before the edit moved them.
@@ -59,6 +66,7 @@ struct EditReport {
     std::optional<RefineSummary> refine;  ///< absent where the edit does not refine
     std::optional<ContactReport> contact; ///< absent without occluders
     std::optional<VolumeChange> volume;   ///< absent for open meshes
+    std::optional<DilationReport> dilation;
 };
 
 struct ForgeReport {
@@ -73,7 +81,7 @@ struct ForgeReport {
 
 /// JSON text of the report, 2 spaces of indentation, numbers that round trip; what is not finite is null.
 /// Every edit has every key: without occluders the counts of `occluder` are 0, without refinement those of
-/// `refine` (and its angles and reason are null); `volume` alone is null where there is none.
+/// `refine` (and its angles and reason are null); `volume` and `dilation` are null where there is none.
 std::string report_json(const ForgeReport& report);
 
 } // namespace anvil

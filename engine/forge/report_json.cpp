@@ -46,6 +46,19 @@ Json handles_json(const EditReport& edit) {
     return handles;
 }
 
+/// The volume's error as a share of what it should be; null for open meshes.
+Json dilation_json(const DilationReport& dilation, const std::optional<VolumeChange>& volume) {
+    Json json = {{"width", number(dilation.width)},
+                 {"height", number(dilation.height)},
+                 {"volume_without_occluders", nullptr},
+                 {"volume_error", nullptr}};
+    if (volume && volume->without_occluders) {
+        json["volume_without_occluders"] = number(*volume->without_occluders);
+        json["volume_error"] = number(std::abs(volume->after / *volume->without_occluders - 1));
+    }
+    return json;
+}
+
 Json edit_json(const EditReport& e) {
     Json json = {{"kind", e.kind},
                  {"region", e.region},
@@ -64,6 +77,10 @@ Json edit_json(const EditReport& e) {
     json["occluder"] = contact_json(e.contact.value_or(ContactReport{}));
     json["volume"] = e.volume ? Json{{"before", number(e.volume->before)}, {"after", number(e.volume->after)}}
                               : Json(nullptr);
+    json["dilation"] = nullptr;
+    if (e.dilation) {
+        json["dilation"] = dilation_json(*e.dilation, e.volume);
+    }
     return json;
 }
 

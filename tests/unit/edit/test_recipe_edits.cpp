@@ -94,6 +94,25 @@ TEST_CASE("lengths and fractions outside their range are refused") {
     check_complaint(minimal(R"(, "steps": {"count": 1, "max": 2})"), {"steps", "either"});
 }
 
+TEST_CASE("dilation has a form and either an amount or a volume to solve for") {
+    const auto with_dilation = [](const std::string& text) { return minimal(R"(, "dilation": )" + text); };
+    check_complaint(with_dilation("{}"), {"edits[0].dilation", "\"form\" is missing"});
+    check_complaint(with_dilation(R"({"form": "deep"})"), {"dilation.form", "\"depth\"", "\"volume\""});
+    check_complaint(with_dilation(R"({"form": "depth"})"), {"dilation", "either \"amount\""});
+    check_complaint(with_dilation(R"({"form": "volume", "amount": 1, "solve": true})"),
+                    {"either \"amount\""});
+    check_complaint(with_dilation(R"({"form": "depth", "solve": true})"), {"dilation.solve", "volume"});
+    check_complaint(with_dilation(R"({"form": "depth", "amount": -1})"), {"dilation.amount", "-1"});
+    check_complaint(with_dilation(R"({"form": "depth", "amount": 1, "width": 0})"),
+                    {"dilation.width", "greater than 0"});
+    for (const char* good : {R"({"form": "depth", "amount": 0.5, "width": 2})",
+                             R"({"form": "volume", "amount": 1})", R"({"form": "volume", "solve": true})"}) {
+        const Recipe recipe = parse(with_dilation(good));
+        CHECK(recipe.edits[0].dilation);
+        CHECK(parse(write_recipe(recipe)) == recipe);
+    }
+}
+
 TEST_CASE("rotations need their axis and translations have none") {
     const std::string rotate = R"({"anvil": 1, "mesh": "a", "edits": [{"kind": "rotate", AXIS
         "handles": [{"at": {"vertex": 7}, "degrees": 90}]}]})";
