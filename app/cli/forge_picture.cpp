@@ -4,6 +4,7 @@
 #include "engine/occluder/occluder_motion.h"
 #include "engine/occluder/solid.h"
 
+#include <algorithm>
 #include <list>
 #include <set>
 
@@ -12,6 +13,7 @@ namespace anvil {
 namespace {
 
 constexpr int occluder_cells = 96;
+const glm::vec3 contact_colour(0.72F, 0.16F, 0.2F);
 
 struct DrawnSurface {
     std::vector<glm::vec3> positions;
@@ -57,6 +59,26 @@ DrawnSurface occluder_surface(const Occluder& occluder, const Placement& place, 
     return {relative(mesh.positions, scene.centre()), mesh.triangles};
 }
 
+/// Colours and weights of the surface, contact in a colour of its own; empty where nothing touches.
+struct ContactColours {
+    ContactColours(const ForgeResult& result, const glm::vec3& base) {
+        if (std::find(result.touching.begin(), result.touching.end(), true) == result.touching.end()) {
+            return;
+        }
+        colours.assign(result.touching.size(), base);
+        weights = result.weights;
+        for (size_t v = 0; v < result.touching.size(); ++v) {
+            if (result.touching[v]) {
+                colours[v] = contact_colour;
+                weights[v] = 0; // no region's tint over it
+            }
+        }
+    }
+
+    std::vector<glm::vec3> colours;
+    std::vector<float> weights;
+};
+
 struct DrawnOccluder {
     std::string name;
     Placement place;
@@ -97,6 +119,11 @@ Picture forge_picture(Device& device, const Mesh& mesh, const Recipe& recipe, co
     }
     const auto positions = relative(result.positions, scene.centre());
     std::vector<PictureSurface> surfaces{{positions, mesh.triangles, result.weights}};
+    const ContactColours contact(result, surfaces[0].base_colour);
+    if (!contact.colours.empty()) {
+        surfaces[0].colours = contact.colours;
+        surfaces[0].tint = contact.weights;
+    }
     for (const DrawnSurface& occluder : occluders) {
         PictureSurface surface{occluder.positions, occluder.triangles};
         surface.base_colour = glm::vec3(0.45F, 0.62F, 0.75F);

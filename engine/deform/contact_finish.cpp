@@ -4,6 +4,7 @@
 #include "engine/occluder/occluder_motion.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <mutex>
 
@@ -28,17 +29,6 @@ struct Nearest {
     double size;     ///< of the occluder
     double settle;   ///< how far off its surface contact sets vertices down
 };
-
-Nearest nearest_occluder(const OccluderSet& set, const Vec3& p) {
-    Nearest nearest{infinity, 0, 0};
-    for (size_t k = 0; k < set.occluders.size(); ++k) {
-        const double distance = exact_distance(set, k, p).distance;
-        if (distance < nearest.distance) {
-            nearest = {distance, set.sizes[k], set.occluders[k].settle};
-        }
-    }
-    return nearest;
-}
 
 /// The point of the segment from `end` back to `start` nearest to the end that is outside, to 2^-40 of it.
 Vec3 retreat(const OccluderSet& set, const Vec3& start, const Vec3& end) {
@@ -89,31 +79,69 @@ Vec3 outside(const OccluderSet& before, const OccluderSet& set, const Vec3& star
     return retreat(set, carried_start(before, set, start, end), end);
 }
 
+/// How near occluder k counts as contact.
+double reach_of_contact(const OccluderSet& set, size_t occluder) {
+    return set.occluders[occluder].settle + contact_distance * set.sizes[occluder];
+}
+
 struct Dip {
     double depth = 0;
-    bool reported = false; ///< deeper than rounding
+    bool reported = false;        ///< deeper than rounding
+    std::vector<size_t> touching; ///< occluders, ascending
 };
 
-/// Deepest of 15 points of a triangle, none where a corner certifies that all of it is outside.
-Dip dip(const OccluderSet& set, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3 corner[3] = {a, b, c};
-    for (int i = 0; i < 3; ++i) {
+/// Whether a corner is so far out that nothing of the triangle is near an occluder.
+bool certified(const OccluderSet& set, const std::array<Vec3, 3>& corner) {
+    double contact = 0;
+    for (size_t k = 0; k < set.occluders.size(); ++k) {
+        contact = std::max(contact, reach_of_contact(set, k));
+    }
+    for (size_t i = 0; i < 3; ++i) {
         const double reach = std::max(glm::length(corner[(i + 1) % 3] - corner[i]),
                                       glm::length(corner[(i + 2) % 3] - corner[i]));
-        if (exact_distance(set, corner[i]).distance >= reach) {
-            return {};
+        if (exact_distance(set, corner[i]).distance >= reach + contact) {
+            return true;
         }
     }
+    return false;
+}
+
+/// Deepest of 15 points of a triangle, and what they touch.
+Dip dip(const OccluderSet& set, const std::array<Vec3, 3>& corner) {
     Dip deepest;
-    for (int u = 0; u <= 4; ++u) {
-        for (int v = 0; u + v <= 4; ++v) {
-            const Vec3 p = c + 0.25 * u * (a - c) + 0.25 * v * (b - c);
-            const Nearest nearest = nearest_occluder(set, p);
-            deepest.depth = std::max(deepest.depth, -nearest.distance);
-            deepest.reported = deepest.reported || -nearest.distance > reported_depth * nearest.size;
+    if (certified(set, corner)) {
+        return deepest;
+    }
+    for (size_t k = 0; k < set.occluders.size(); ++k) {
+        double least = infinity;
+        for (int u = 0; u <= 4; ++u) {
+            for (int v = 0; u + v <= 4; ++v) {
+                const Vec3 p =
+                    corner[2] + 0.25 * u * (corner[0] - corner[2]) + 0.25 * v * (corner[1] - corner[2]);
+                least = std::min(least, exact_distance(set, k, p).distance);
+            }
+        }
+        deepest.depth = std::max(deepest.depth, -least);
+        deepest.reported = deepest.reported || -least > reported_depth * set.sizes[k];
+        if (least <= reach_of_contact(set, k)) {
+            deepest.touching.push_back(k);
         }
     }
     return deepest;
+}
+
+void append(ContactReport& report, const ContactReport& part, std::vector<uint32_t> OccluderContact::*list) {
+    for (size_t k = 0; k < part.occluders.size(); ++k) {
+        const std::vector<uint32_t>& found = part.occluders[k].*list;
+        (report.occluders[k].*list).insert((report.occluders[k].*list).end(), found.begin(), found.end());
+    }
+}
+
+/// Threads find what touches in any order.
+void sort_contacts(ContactReport& report, std::vector<uint32_t> OccluderContact::*list) {
+    for (OccluderContact& occluder : report.occluders) {
+        std::sort((occluder.*list).begin(), (occluder.*list).end());
+    }
 }
 
 } // namespace
@@ -137,43 +165,60 @@ size_t finish_contact(const OccluderSet& set, std::span<const Vec3> starts, cons
 
 void measure_vertices(const OccluderSet& set, std::span<const Vec3> ends, const std::vector<bool>& inside,
                       ContactReport& report) {
+    report.occluders.resize(set.occluders.size());
     std::mutex mutex;
     parallel_for(ends.size(), 512, [&](size_t begin, size_t end) {
-        size_t penetrating = 0;
-        size_t contacts = 0;
-        double deepest = 0;
+        ContactReport part;
+        part.occluders.resize(set.occluders.size());
         for (size_t i = begin; i < end; ++i) {
-            const Nearest nearest = nearest_occluder(set, ends[i]);
+            Nearest nearest{infinity, 0, 0};
+            for (size_t k = 0; k < set.occluders.size(); ++k) {
+                const double distance = exact_distance(set, k, ends[i]).distance;
+                if (distance < nearest.distance) {
+                    nearest = {distance, set.sizes[k], set.occluders[k].settle};
+                }
+                if (distance <= reach_of_contact(set, k)) {
+                    part.occluders[k].points.push_back(static_cast<uint32_t>(i));
+                }
+            }
             const double depth = inside[i] ? 0 : -nearest.distance;
-            deepest = std::max(deepest, depth);
-            penetrating += depth > reported_depth * nearest.size ? 1 : 0;
-            contacts +=
+            part.max_penetration = std::max(part.max_penetration, depth);
+            part.penetrating_vertices += depth > reported_depth * nearest.size ? 1 : 0;
+            part.contact_vertices +=
                 std::abs(nearest.distance) <= nearest.settle + contact_distance * nearest.size ? 1 : 0;
         }
         const std::lock_guard lock(mutex);
-        report.penetrating_vertices += penetrating;
-        report.contact_vertices += contacts;
-        report.max_penetration = std::max(report.max_penetration, deepest);
+        report.penetrating_vertices += part.penetrating_vertices;
+        report.contact_vertices += part.contact_vertices;
+        report.max_penetration = std::max(report.max_penetration, part.max_penetration);
+        append(report, part, &OccluderContact::points);
     });
+    sort_contacts(report, &OccluderContact::points);
 }
 
 void measure_triangles(const OccluderSet& set, std::span<const Vec3> positions, const Vec3& origin,
                        std::span<const Triangle> triangles, ContactReport& report) {
+    report.occluders.resize(set.occluders.size());
     std::mutex mutex;
     parallel_for(triangles.size(), 256, [&](size_t begin, size_t end) {
-        size_t penetrating = 0;
-        double deepest = 0;
+        ContactReport part;
+        part.occluders.resize(set.occluders.size());
         for (size_t i = begin; i < end; ++i) {
             const Triangle& t = triangles[i];
             const Dip found =
-                dip(set, positions[t[0]] - origin, positions[t[1]] - origin, positions[t[2]] - origin);
-            deepest = std::max(deepest, found.depth);
-            penetrating += found.reported ? 1 : 0;
+                dip(set, {positions[t[0]] - origin, positions[t[1]] - origin, positions[t[2]] - origin});
+            part.deepest_dip = std::max(part.deepest_dip, found.depth);
+            part.penetrating_triangles += found.reported ? 1 : 0;
+            for (const size_t k : found.touching) {
+                part.occluders[k].triangles.push_back(static_cast<uint32_t>(i));
+            }
         }
         const std::lock_guard lock(mutex);
-        report.penetrating_triangles += penetrating;
-        report.deepest_dip = std::max(report.deepest_dip, deepest);
+        report.penetrating_triangles += part.penetrating_triangles;
+        report.deepest_dip = std::max(report.deepest_dip, part.deepest_dip);
+        append(report, part, &OccluderContact::triangles);
     });
+    sort_contacts(report, &OccluderContact::triangles);
 }
 
 } // namespace anvil

@@ -10,6 +10,13 @@
 
 namespace anvil {
 
+/// What touches one occluder: is within `contact_distance` of where contact sets vertices down (its surface,
+/// or as far off as its sampled field may err), or inside.
+struct OccluderContact {
+    std::vector<uint32_t> points;    ///< ascending, of those measured
+    std::vector<uint32_t> triangles; ///< ascending, of those measured; in one of 15 places at least
+};
+
 /// Counts of one edit's contact; lengths in world units.
 struct ContactReport {
     size_t started_inside = 0;
@@ -22,6 +29,7 @@ struct ContactReport {
     /// Of the region, that end within 1e-3 of the occluder's size of where contact sets vertices down (its
     /// surface, or as far off as its sampled field may err).
     size_t contact_vertices = 0;
+    std::vector<OccluderContact> occluders; ///< one each
 };
 
 /// Moves each point of `ends` that is inside an occluder at the end of the edit, although its `start` was
@@ -35,13 +43,14 @@ size_t finish_contact(const OccluderSet& set, std::span<const Vec3> starts, cons
 
 // What follows takes the set as it stands at the end.
 
-/// Fills penetrating_vertices, max_penetration and contact_vertices of the points as they are.
+/// Fills penetrating_vertices, max_penetration, contact_vertices and the occluders' points.
 void measure_vertices(const OccluderSet& set, std::span<const Vec3> ends, const std::vector<bool>& inside,
                       ContactReport& report);
 
-/// Fills penetrating_triangles and deepest_dip: a triangle is certified outside if a corner is farther out
-/// than it is from the triangle's other points; all others are sampled (edges and inside, 15 points).
-/// `positions` in world space, `origin`: the local origin; only those that `triangles` name are read.
+/// Fills penetrating_triangles, deepest_dip and the occluders' triangles: a triangle is certified outside if
+/// a corner is farther out than it is from the triangle's other points; all others are sampled (edges and
+/// inside, 15 points). `positions` in world space, `origin`: the local origin; only those that `triangles`
+/// name are read.
 void measure_triangles(const OccluderSet& set, std::span<const Vec3> positions, const Vec3& origin,
                        std::span<const Triangle> triangles, ContactReport& report);
 

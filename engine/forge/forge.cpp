@@ -134,6 +134,7 @@ class Forger {
                                  : deform(input, motion.motion);
         move_vertices(region, input, results, report);
         report_triangles(region, input, report);
+        report_contacts(edit, region, report);
         report_volume(report, free_volume);
         note_region(region, input);
         result_.report.edits.push_back(std::move(report));
@@ -397,12 +398,45 @@ class Forger {
             in_region[v] = true;
         }
         std::vector<Triangle> triangles;
-        for (const Triangle& t : mesh().triangles) {
+        std::vector<uint32_t> places;
+        for (uint32_t i = 0; i < mesh().triangles.size(); ++i) {
+            const Triangle& t = mesh().triangles[i];
             if (in_region[t[0]] || in_region[t[1]] || in_region[t[2]]) {
                 triangles.push_back(t);
+                places.push_back(i);
             }
         }
         measure_triangles(at_end(input.occluders), result_.positions, origin_, triangles, *report.contact);
+        for (OccluderContact& occluder : report.contact->occluders) {
+            for (uint32_t& triangle : occluder.triangles) {
+                triangle = places[triangle];
+            }
+        }
+    }
+
+    /// From the region's points and the mesh's triangles to the file's numbers.
+    void report_contacts(const Edit& edit, const EditRegion& region, EditReport& report) {
+        if (!report.contact) {
+            return;
+        }
+        result_.touching.assign(mesh_.vertex_count(), false);
+        const std::vector<OccluderUse> uses = occluders_of(recipe_, edit);
+        for (size_t k = 0; k < uses.size(); ++k) {
+            ContactList list{uses[k].name, {}, {}};
+            for (const uint32_t point : report.contact->occluders[k].points) {
+                list.vertices.push_back(region.vertices[point]);
+                result_.touching[region.vertices[point]] = true;
+            }
+            uint32_t face = 0;
+            for (const uint32_t triangle : report.contact->occluders[k].triangles) {
+                while (mesh().first_triangle(face + size_t{1}) <= triangle) {
+                    ++face;
+                }
+                list.triangles.push_back(
+                    {face, triangle - static_cast<uint32_t>(mesh().first_triangle(face))});
+            }
+            report.contacts.push_back(std::move(list));
+        }
     }
 
     void report_volume(EditReport& report, const std::optional<double>& free_volume) {

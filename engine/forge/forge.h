@@ -21,6 +21,7 @@ struct ForgeResult {
     std::vector<bool> moved; ///< vertices that any edit moved
     std::vector<float>
         weights; ///< largest |phi| of any handle of any edit at each vertex, at most 1: the region
+    std::vector<bool> touching; ///< vertices that touch an occluder after the last edit that has any
     /// The mesh with the vertices that refinement added, old ones first, as it is before any edit; absent if
     /// none were added.
     std::optional<Mesh> refined;

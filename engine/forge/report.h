@@ -3,6 +3,7 @@
 
 #include "engine/deform/contact_finish.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -51,6 +52,14 @@ struct RefineSummary {
     double min_angle_after = 0;
 };
 
+/// What touches an occluder at the end of an edit, by the file's own numbers.
+struct ContactList {
+    std::string name;               ///< of the occluder
+    std::vector<uint32_t> vertices; ///< ascending
+    /// Face and triangle of its triangulation, ascending.
+    std::vector<std::array<uint32_t, 2>> triangles;
+};
+
 struct EditReport {
     std::string kind;  ///< "translate" or "rotate"
     size_t region = 0; ///< vertices that the edit can move
@@ -65,6 +74,7 @@ struct EditReport {
     size_t samples = 0;
     std::optional<RefineSummary> refine;  ///< absent where the edit does not refine
     std::optional<ContactReport> contact; ///< absent without occluders
+    std::vector<ContactList> contacts;    ///< one per use of an occluder
     std::optional<VolumeChange> volume;   ///< absent for open meshes
     std::optional<DilationReport> dilation;
 };

@@ -75,6 +75,11 @@ Json edit_json(const EditReport& e) {
                  {"samples", e.samples}};
     json["refine"] = refine_json(e.refine);
     json["occluder"] = contact_json(e.contact.value_or(ContactReport{}));
+    json["occluder"]["contacts"] = Json::array();
+    for (const ContactList& list : e.contacts) {
+        json["occluder"]["contacts"].push_back(
+            {{"name", list.name}, {"vertices", list.vertices}, {"triangles", list.triangles}});
+    }
     json["volume"] = e.volume ? Json{{"before", number(e.volume->before)}, {"after", number(e.volume->after)}}
                               : Json(nullptr);
     json["dilation"] = nullptr;
