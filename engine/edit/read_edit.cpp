@@ -253,7 +253,7 @@ void check_handleless(const JsonReader& edit, const Edit& parsed) {
     if (parsed.kind == EditKind::rotate) {
         edit.required("kind").fail_found("without handles nothing turns; use \"translate\"");
     }
-    for (const char* key : {"shape", "least_squares"}) {
+    for (const char* key : {"shape", "least_squares", "refine"}) {
         if (edit.has(key)) {
             edit.required(key).fail("belongs to handles, and the edit has none; remove it");
         }

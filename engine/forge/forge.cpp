@@ -65,6 +65,7 @@ class Forger {
             throw InputError(recipe_.file + ": " + error.what());
         }
         progress_.report("forge", 1);
+        result_.touching.resize(mesh().vertex_count(), false); // what a later edit added touches nothing
         result_.report.vertices = mesh().vertex_count();
         result_.report.faces = mesh().polygon_count();
         result_.parents = history_.parents();
@@ -317,9 +318,9 @@ class Forger {
         const StageTimer timer(seconds().deform);
         const double width = edit.dilation->width.value_or(0.5 * largest_radius(region));
         try {
-            DilationResult result = dilate({mesh_, result_.positions, origin_, region, input, motion,
+            DilationResult result = dilate({mesh(), result_.positions, origin_, region, input, motion,
                                             *edit.dilation, width, volume_.has_value()},
-                                           *surface_);
+                                           surface());
             report.dilation = DilationReport{width, result.height, edit.dilation->solve};
             free_volume = result.free_volume;
             return std::move(result.points);
@@ -419,7 +420,7 @@ class Forger {
         if (!report.contact) {
             return;
         }
-        result_.touching.assign(mesh_.vertex_count(), false);
+        result_.touching.assign(mesh().vertex_count(), false);
         const std::vector<OccluderUse> uses = occluders_of(recipe_, edit);
         for (size_t k = 0; k < uses.size(); ++k) {
             ContactList list{uses[k].name, {}, {}};

@@ -52,7 +52,8 @@ struct RefineSummary {
     double min_angle_after = 0;
 };
 
-/// What touches an occluder at the end of an edit, by the file's own numbers.
+/// What touches an occluder at the end of an edit, by the numbers of the mesh that it left: the file's own,
+/// until refinement adds some.
 struct ContactList {
     std::string name;               ///< of the occluder
     std::vector<uint32_t> vertices; ///< ascending
