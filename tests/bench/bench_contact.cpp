@@ -97,6 +97,26 @@ Verdict judge(const Mesh& mesh, double size, std::vector<Vec3> ends, const Occlu
     return verdict;
 }
 
+/// Of 100 points a thousandth of the size beneath the surface, on whichever side winding numbers call inside:
+/// how many the judge finds. A judge that finds none says nothing.
+size_t seen_by_judge(const Mesh& mesh, double size) {
+    size_t seen = 0;
+    for (size_t i = 0; i < 100; ++i) {
+        const Triangle& t = mesh.triangles[i * mesh.triangles.size() / 100];
+        const Vec3& a = mesh.positions[t[0]];
+        const Vec3 n = glm::cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a);
+        const Vec3 centre = (a + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0;
+        for (const double side : {-1e-3, 1e-3}) {
+            const Vec3 p = centre + side * size * n / std::max(glm::length(n), 1e-300);
+            if (std::abs(winding(mesh, p)) >= 0.5 && surface_distance(mesh, p) > 1e-6 * size) {
+                ++seen;
+                break;
+            }
+        }
+    }
+    return seen;
+}
+
 struct Run {
     std::string name;
     const Mesh& mesh;
@@ -177,6 +197,10 @@ int main(int argc, char** argv) {
     for (const auto& file : files) {
         Log log;
         const Mesh mesh = read_mesh(file, log);
+        const size_t seen = seen_by_judge(mesh, bounds(mesh).diagonal());
+        std::printf("%-26s the judge finds %zu of 100 points beneath the surface\n", file.filename().c_str(),
+                    seen);
+        all = all && seen > 50;
         for (const uint32_t resolution : {64U, 128U}) {
             Progress progress;
             const OccluderModel model =
