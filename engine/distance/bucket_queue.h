@@ -17,9 +17,11 @@ class BucketQueue {
     /// a very small width is made larger.
     BucketQueue(double width, double reach) {
         width_ = std::max(width, reach / most_buckets);
-        if (!(width_ > 0)) {
+        // Anything smaller has no inverse.
+        if (!(width_ > 1e-300)) {
             width_ = 1;
         }
+        inverse_width_ = 1 / width_;
         const auto wanted = static_cast<size_t>(reach / width_) + 4;
         buckets_.resize(std::bit_ceil(wanted));
     }
@@ -57,7 +59,7 @@ class BucketQueue {
     }
 
     size_t bucket_of(double key) const {
-        return key < 1e18 * width_ ? static_cast<size_t>(key / width_) : static_cast<size_t>(1e18);
+        return key < 1e18 * width_ ? static_cast<size_t>(key * inverse_width_) : static_cast<size_t>(1e18);
     }
     size_t current() const { return current_; }
     double width() const { return width_; }
@@ -102,7 +104,7 @@ class BucketQueue {
         Item item;
     };
     static constexpr size_t most_buckets = 1 << 16;
-    double width_ = 1;
+    double width_ = 1, inverse_width_ = 1;
     std::vector<std::vector<Item>> buckets_;
     std::vector<Held> held_back_;
     size_t last_ = 0;

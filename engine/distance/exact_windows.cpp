@@ -164,7 +164,8 @@ bool ExactWindows::cross_beside(const Window& w) {
     // Of the ways that may beat all rays, over the base's other end and over the ends of the side, the first
     // is almost always the best; the others are tried where a window comes near a corner.
     const double dx = base * along.x - begin, dy = base * along.y;
-    const double spare = out.distance(begin) * (1 - tie) - distance_[face.vertex[over]];
+    const double rim = out.distance(begin);
+    const double spare = rim * (1 - tie) - distance_[face.vertex[over]];
     const bool beaten = (spare > 0) & (spare * spare > dx * dx + dy * dy);
     const uint32_t link = face.across[exit];
     if (beaten | (link == no_index)) {
@@ -173,7 +174,8 @@ bool ExactWindows::cross_beside(const Window& w) {
     if ((link & (WindowTable::more | WindowTable::thin)) != 0) {
         return false;
     }
-    const double key = out.least(begin, end);
+    // At most the least distance of the window, without another root.
+    const double key = std::max(rim - (end - begin), w.offset);
     const uint32_t flip = mirrored ^ (link & WindowTable::same_way);
     const std::array<double, 2> rims = {begin, end};
     const double sign_out = sign_of[flip], shift_out = zero_one[flip] * length;
