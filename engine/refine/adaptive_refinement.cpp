@@ -20,9 +20,6 @@ struct Split {
     uint32_t crease = no_index;
 };
 
-// Rounds after which splits are taken to pile up against an edge that is just within the tolerance.
-constexpr size_t patience = 24;
-
 class Refiner {
   public:
     Refiner(std::span<const Triangle> triangles, RefineState state, EdgeCriterion& criterion,
@@ -136,41 +133,7 @@ class Refiner {
                           spans[i].length, splits);
             }
         }
-        if (report_.rounds >= patience && !splits.empty()) {
-            add_neighbours(splits, taken);
-        }
         return splits;
-    }
-
-    /// Splits the other edges of the faces that are split too, where they use half of the tolerance. Each
-    /// split halves an error or better, so that no more than some rounds are needed; only where the face
-    /// beside an edge keeps missing what the edge itself just meets would they go on for hundreds.
-    void add_neighbours(std::vector<Split>& splits, std::vector<char>& taken) {
-        for (const Split& split : splits) {
-            taken[split.edge] = 1;
-        }
-        std::vector<uint32_t> edges;
-        for (const EdgeMesh::Face& face : mesh_.faces()) {
-            const auto is_taken = [&](uint32_t e) { return e != no_index && taken[e] == 1; };
-            if (!std::any_of(face.edges.begin(), face.edges.end(), is_taken)) {
-                continue;
-            }
-            for (const uint32_t e : face.edges) {
-                if (e != no_index && taken[e] == 0 && errors_[e] > 0.5 * options_.tolerance) {
-                    taken[e] = 2;
-                    edges.push_back(e);
-                }
-            }
-        }
-        const std::vector<EdgeSpan> spans = spans_of(edges);
-        const auto findings = criterion_.measure(state_, spans, 0.5 * options_.tolerance);
-        for (size_t i = 0; i < edges.size(); ++i) {
-            if (findings[i].error.error > 0.5 * options_.tolerance && findings[i].error.place > 0) {
-                add_split({edges[i], findings[i].error.place, findings[i].error.error, no_index},
-                          spans[i].length, splits);
-            }
-        }
-        splits_everywhere_ = true;
     }
 
     /// Edges are within the tolerance; faces that are not are split at their longest edge.
