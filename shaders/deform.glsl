@@ -47,6 +47,7 @@ layout(binding = 14) uniform sampler3D volume_5;
 layout(binding = 15) uniform sampler3D volume_6;
 layout(binding = 16) uniform sampler3D volume_7;
 layout(binding = 17, scalar) readonly buffer Poses { Pose poses[]; };
+layout(binding = 18, scalar) readonly buffer FieldWords { uint field_words[]; };
 
 // DeformVariant of engine/gpu/deform_pipeline.h, in this order.
 layout(constant_id = 0) const uint has_occluders = 1u;
@@ -94,6 +95,10 @@ vec4 volume_texel(uint volume, vec3 uvw) {
     SAMPLE_IF(7u, volume_7)
     return vec4(0.0);
 }
+
+uint brick_word(ShapeNode node, uint index) { return field_words[node.words + index]; }
+
+float half_value(uint word) { return unpackHalf2x16(word).x; }
 
 #include "shared/shape_function.h"
 #include "shared/occluder.h"

@@ -9,6 +9,7 @@ CpuKernel::CpuKernel(const DeformInput& input, const DeformMotion& motion)
     kernel_.nodes = input.occluders.nodes.data();
     kernel_.occluders = input.occluders.occluders.data();
     kernel_.volumes = input.occluders.volumes.data();
+    kernel_.field_words = input.occluders.words();
     kernel_.params = kernel_params(input, motion);
     kernel_.points = input.points.data();
     kernel_.fields = input.fields.data();

@@ -51,7 +51,7 @@ void find_start_distances(DeformInput& input) {
     const OccluderSet& set = input.occluders;
     parallel_for(input.points.size(), 1024, [&](size_t begin, size_t end) {
         kernel::f64::OccluderKernel kernel{set.segments.data(), set.nodes.data(), set.occluders.data(),
-                                           set.volumes.data()};
+                                           set.volumes.data(), set.words()};
         for (size_t i = begin; i < end; ++i) {
             input.start_distances[i] = start_distance(set, kernel, input.points[i]);
         }

@@ -7,7 +7,7 @@ namespace anvil {
 
 static_assert(sizeof(kernel::f32::ShapeSegment) == 20);
 static_assert(sizeof(kernel::f32::CurveRange) == 8);
-static_assert(sizeof(kernel::f32::ShapeNode) == 76 && offsetof(kernel::f32::ShapeNode, scale) == 72);
+static_assert(sizeof(kernel::f32::ShapeNode) == 80 && offsetof(kernel::f32::ShapeNode, scale) == 76);
 static_assert(sizeof(kernel::f32::Occluder) == 92 && offsetof(kernel::f32::Occluder, curve) == 84);
 static_assert(sizeof(kernel::f32::Pose) == 88 && offsetof(kernel::f32::Pose, at) == 84);
 static_assert(sizeof(kernel::f32::KernelParams) == 68 &&
@@ -33,6 +33,7 @@ kernel::f32::ShapeSegment narrowed(const kernel::f64::ShapeSegment& s) {
 kernel::f32::ShapeNode narrowed(const kernel::f64::ShapeNode& n) {
     return {n.kind,
             n.volume,
+            n.words,
             narrowed(n.size),
             narrowed(n.extra),
             narrowed(n.axis_x),

@@ -178,14 +178,14 @@ std::optional<Field> read_field(const JsonReader& occluder, const OccluderShape&
     field->check_keys({"kind", "resolution"});
     Field result;
     result.kind = field->required("kind").word<FieldKind>(
-        {{"exact", FieldKind::exact}, {"dense", FieldKind::dense}}, {"adaptive"});
+        {{"exact", FieldKind::exact}, {"dense", FieldKind::dense}, {"adaptive", FieldKind::adaptive}});
     if (const auto resolution = field->find("resolution")) {
         result.resolution = resolution->whole(8, 1024);
     }
     if (result.kind == FieldKind::exact && !has_formula(shape)) {
-        field->fail("a mesh or level set has no formula: use \"kind\": \"dense\", or leave \"field\" out");
+        field->fail("a mesh or level set has no formula: use \"kind\": \"adaptive\", or leave \"field\" out");
     }
-    if (result.kind == FieldKind::dense && !is_bounded(shape)) {
+    if (result.kind != FieldKind::exact && !is_bounded(shape)) {
         field->fail(
             "a plane cannot be baked, since no box holds it; use \"kind\": \"exact\", or cut it off by an "
             "\"intersection\" with a bounded shape");

@@ -42,7 +42,7 @@ bool has_formula(const OccluderShape& shape) {
 }
 
 Field field_of(const Occluder& occluder) {
-    const Field fallback{has_formula(occluder.shape) ? FieldKind::exact : FieldKind::dense,
+    const Field fallback{has_formula(occluder.shape) ? FieldKind::exact : FieldKind::adaptive,
                          Field{}.resolution};
     return occluder.field.value_or(fallback);
 }

@@ -188,10 +188,10 @@ bool is_bounded(const OccluderShape& shape);
 /// Whether the shape has a formula that kernels evaluate: no file is part of it.
 bool has_formula(const OccluderShape& shape);
 
-enum class FieldKind { exact, dense };
+enum class FieldKind { exact, dense, adaptive };
 
-/// How an occluder is evaluated: by formula, or from a baked texture with `resolution` voxels (8 to 1024)
-/// along its longest side.
+/// How an occluder is evaluated: by formula, or from baked samples with `resolution` voxels (8 to 1024)
+/// along its longest side, everywhere (dense) or where the surface is near (adaptive).
 struct Field {
     FieldKind kind = FieldKind::exact;
     uint32_t resolution = 128;
@@ -308,7 +308,8 @@ std::filesystem::path mesh_path(const Recipe& recipe);
 /// influence filled in. Names must be known.
 std::vector<OccluderUse> occluders_of(const Recipe& recipe, const Edit& edit);
 
-/// How the occluder is evaluated: its own field, or the default: exact where there is a formula, else dense.
+/// How the occluder is evaluated: its own field, or the default: exact where there is a formula, else
+/// adaptive.
 Field field_of(const Occluder& occluder);
 
 /// The folder that the recipe's paths are relative to.

@@ -6,6 +6,10 @@ namespace anvil {
 
 namespace {
 
+const char* name_of(FieldKind kind) {
+    return kind == FieldKind::exact ? "exact" : kind == FieldKind::dense ? "dense" : "adaptive";
+}
+
 using Json = nlohmann::ordered_json;
 
 struct SolidWriter {
@@ -85,7 +89,7 @@ Json written(const OccluderShape& shape) {
 Json written(const Occluder& occluder) {
     Json result{{"name", occluder.name}, {"shape", written(occluder.shape)}};
     if (occluder.field) {
-        result["field"] = {{"kind", occluder.field->kind == FieldKind::exact ? "exact" : "dense"},
+        result["field"] = {{"kind", name_of(occluder.field->kind)},
                            {"resolution", occluder.field->resolution}};
     }
     result["transform"] = written(occluder.transform);

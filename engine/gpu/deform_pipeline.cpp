@@ -56,7 +56,8 @@ DeformVariant DeformVariant::of(const OccluderSet& occluders, const kernel::f32:
 }
 
 DeformPipeline::DeformPipeline(std::shared_ptr<Device> device)
-    : device_(std::move(device)), no_volume_(device_->state(), {1, 1, 1}, std::array<float, 4>{}) {}
+    : device_(std::move(device)), no_volume_(device_->state(), {1, 1, 1}, std::array<float, 4>{}),
+      no_words_(storage_buffer(device_->state(), std::span<const uint32_t>(std::array<uint32_t, 1>{}))) {}
 
 const ComputeKernel& DeformPipeline::kernel(const DeformVariant& variant) {
     for (const auto& [known, kernel] : kernels_) {
@@ -77,18 +78,31 @@ const ComputeKernel& DeformPipeline::kernel(const DeformVariant& variant) {
     return *kernels_.back().second;
 }
 
-std::shared_ptr<const VolumeTexture>
-DeformPipeline::texture(const std::shared_ptr<const DistanceVolume>& volume) {
-    std::erase_if(textures_,
-                  [](const CachedTexture& entry) { return entry.first.expired() || entry.second.expired(); });
-    for (const auto& [field, cached] : textures_) {
-        if (std::shared_ptr<const VolumeTexture> texture = cached.lock(); texture && field.lock() == volume) {
-            return texture;
+template <class Source, class Upload, class Make>
+std::shared_ptr<const Upload> DeformPipeline::cached(Cache<Source, Upload>& cache,
+                                                     const std::shared_ptr<const Source>& source,
+                                                     const Make& make) {
+    std::erase_if(cache, [](const auto& entry) { return entry.first.expired() || entry.second.expired(); });
+    for (const auto& [known, upload] : cache) {
+        if (std::shared_ptr<const Upload> found = upload.lock(); found && known.lock() == source) {
+            return found;
         }
     }
-    auto texture = std::make_shared<const VolumeTexture>(device_->state(), volume->size, volume->texels);
-    textures_.emplace_back(volume, texture);
-    return texture;
+    auto upload = std::make_shared<const Upload>(make());
+    cache.emplace_back(source, upload);
+    return upload;
+}
+
+std::shared_ptr<const VolumeTexture>
+DeformPipeline::texture(const std::shared_ptr<const DistanceVolume>& volume) {
+    return cached(textures_, volume,
+                  [&] { return VolumeTexture(device_->state(), volume->size, volume->texels); });
+}
+
+std::shared_ptr<const Buffer>
+DeformPipeline::field_words(const std::shared_ptr<const std::vector<uint32_t>>& words) {
+    return cached(words_, words,
+                  [&] { return storage_buffer(device_->state(), std::span<const uint32_t>(*words)); });
 }
 
 } // namespace anvil

@@ -51,16 +51,27 @@ class DeformPipeline {
 
     /// The field as a texture; uploaded once as long as both live. @throws DeviceError
     std::shared_ptr<const VolumeTexture> texture(const std::shared_ptr<const DistanceVolume>& volume);
-    /// Bound where a kernel's field is not used.
+    /// The words of all adaptive fields as a buffer; likewise.
+    std::shared_ptr<const Buffer> field_words(const std::shared_ptr<const std::vector<uint32_t>>& words);
+    /// Bound where a kernel's fields are not used.
     const VolumeTexture& no_volume() const { return no_volume_; }
+    const Buffer& no_words() const { return no_words_; }
 
   private:
-    using CachedTexture = std::pair<std::weak_ptr<const DistanceVolume>, std::weak_ptr<const VolumeTexture>>;
+    template <class Source, class Upload>
+    using Cache = std::vector<std::pair<std::weak_ptr<const Source>, std::weak_ptr<const Upload>>>;
+
+    template <class Source, class Upload, class Make>
+    static std::shared_ptr<const Upload> cached(Cache<Source, Upload>& cache,
+                                                const std::shared_ptr<const Source>& source,
+                                                const Make& make);
 
     std::shared_ptr<Device> device_;
     std::vector<std::pair<DeformVariant, std::unique_ptr<ComputeKernel>>> kernels_;
     VolumeTexture no_volume_;
-    std::vector<CachedTexture> textures_;
+    Buffer no_words_;
+    Cache<DistanceVolume, VolumeTexture> textures_;
+    Cache<std::vector<uint32_t>, Buffer> words_;
 };
 
 } // namespace anvil

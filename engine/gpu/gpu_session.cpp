@@ -89,11 +89,14 @@ GpuSession::GpuSession(std::shared_ptr<DeformPipeline> pipeline, const DeformInp
       commands_(pipeline_->device()) {
     check_sizes(input, still(input.handle_count));
     if (input.occluders.volumes.size() > kernel::f32::MAX_VOLUMES) {
-        throw InternalError("an edit has more sampled fields than the kernel binds");
+        throw InternalError("an edit has more densely sampled fields than the kernel binds");
     }
     DeviceState& device = pipeline_->device();
     for (const auto& volume : input.occluders.volumes) {
         volumes_.push_back(pipeline_->texture(volume));
+    }
+    if (input.occluders.field_words) {
+        field_words_ = pipeline_->field_words(input.occluders.field_words);
     }
     const SegmentTable table = segment_table(input);
     shapes_ = narrow_buffer(device, table.shapes);
@@ -139,6 +142,7 @@ void GpuSession::bind_resources(Chunk& chunk) {
         chunk.resources.emplace_back(i < volumes_.size() ? volumes_[i].get() : &pipeline_->no_volume());
     }
     chunk.resources.emplace_back(BufferRange(poses_));
+    chunk.resources.emplace_back(BufferRange(field_words_ ? *field_words_ : pipeline_->no_words()));
 }
 
 void GpuSession::upload_targets(const std::vector<Vec3>& targets) {

@@ -37,6 +37,7 @@ class GpuSession final : public DeformSession {
     DeformInput header_; ///< the input without its per-point arrays
     size_t point_count_ = 0;
     std::vector<std::shared_ptr<const VolumeTexture>> volumes_;
+    std::shared_ptr<const Buffer> field_words_; ///< empty: no adaptive field
     Buffer shapes_;
     Buffer segments_;
     Buffer occluders_;

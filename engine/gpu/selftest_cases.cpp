@@ -4,6 +4,7 @@
 #include "engine/occluder/distance_volume.h"
 #include "engine/occluder/exact_distance.h"
 #include "engine/occluder/occluder_motion.h"
+#include "engine/occluder/occluder_set.h"
 
 #include <random>
 
@@ -84,7 +85,7 @@ SelftestCase scene(std::string name, uint32_t seed, size_t handles, size_t point
 }
 
 k::ShapeNode leaf(uint32_t kind, Vec3 size, double extra = 0) {
-    return {kind, 0, size, extra, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, Vec3(0), 1};
+    return {kind, 0, 0, size, extra, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, Vec3(0), 1};
 }
 
 k::ShapeNode placed(k::ShapeNode node, Vec3 origin) {
@@ -193,6 +194,27 @@ SelftestCase sampled_case(const char* name, uint32_t seed) {
     test.input.occluders.nodes.back().volume = 0;
     test.input.occluders.volumes.push_back(volume);
     test.input.occluders.exact.back() = exact;
+    return finished(std::move(test));
+}
+
+/// Two adaptive fields, so that one begins behind the other's words.
+SelftestCase adaptive_case(const char* name, uint32_t seed) {
+    SelftestCase test = scene(name, seed, 2);
+    const std::array solids{formula_distance({leaf(k::SHAPE_BOX, {0.4, 0.3, 0.25}, 0.1)}),
+                            formula_distance({leaf(k::SHAPE_TORUS, {0.35, 0.12, 0})})};
+    for (const auto& solid : solids) {
+        ++seed;
+        Progress progress;
+        const OccluderModel model = sampled_model(solid, {FieldKind::adaptive, 48}, progress);
+        Random random(seed);
+        Transform pose;
+        pose.translate = random.vector(0.4);
+        pose.axis = random.direction();
+        pose.degrees = random.between(0, 360);
+        pose.scale = random.between(0.7, 1.3);
+        add_occluder(test.input.occluders, model, "adaptive", pose, {InfluenceKind::soft, 0.9, {}, {}, 0},
+                     {Vec3(0), diagonal, 1});
+    }
     return finished(std::move(test));
 }
 
@@ -322,6 +344,7 @@ std::vector<SelftestCase> selftest_cases() {
     add_hammer_cases(cases);
     add_rule_cases(cases);
     cases.push_back(sampled_case("sampled field", 500));
+    cases.push_back(adaptive_case("adaptive fields", 510));
     return cases;
 }
 

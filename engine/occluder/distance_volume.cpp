@@ -20,27 +20,30 @@ Vec3 voxel_centre(const DistanceVolume& volume, const Vec3& voxel) {
 }
 
 DistanceVolume layout(const Box& box, uint32_t resolution) {
-    const Vec3 extent = box.high - box.low;
-    const double longest = std::max({extent.x, extent.y, extent.z});
+    const VoxelGrid grid = voxel_grid(box, resolution);
     DistanceVolume volume;
-    volume.voxel = longest / std::max(1.0, resolution - 1 - 2 * padding_voxels);
+    volume.voxel = grid.voxel;
+    volume.size = grid.size;
     volume.centre = box.centre();
     for (int i = 0; i < 3; ++i) {
-        volume.size[i] =
-            static_cast<uint32_t>(std::ceil(extent[i] / volume.voxel - 1e-9) + 2 * padding_voxels) + 1;
         volume.half_size[i] = 0.5 * volume.voxel * (volume.size[i] - 1);
     }
     return volume;
 }
 
 void fill_row(DistanceVolume& volume, const ExactDistance& solid, size_t y, size_t z) {
+    std::vector<Vec3> points;
+    for (size_t x = 0; x < volume.size[0]; ++x) {
+        points.push_back(voxel_centre(volume, Vec3(x, y, z)));
+    }
+    std::vector<SignedDistance> found(points.size());
+    solid.trace(points, found);
     float* texel = &volume.texels[texel_index(volume, 0, y, z)];
-    for (size_t x = 0; x < volume.size[0]; ++x, texel += 4) {
-        const SignedDistance s = solid.at(voxel_centre(volume, Vec3(x, y, z)));
+    for (const SignedDistance& s : found) {
         for (int i = 0; i < 3; ++i) {
-            texel[i] = static_cast<float>(s.normal[i]);
+            *texel++ = static_cast<float>(s.normal[i]);
         }
-        texel[3] = static_cast<float>(s.distance);
+        *texel++ = static_cast<float>(s.distance);
     }
 }
 
@@ -93,12 +96,28 @@ glm::dvec4 DistanceVolume::texel(const Vec3& uvw) const {
     return sum;
 }
 
-DistanceVolume bake(const ExactDistance& solid, uint32_t resolution, Progress& progress) {
+VoxelGrid voxel_grid(const Box& box, uint32_t resolution) {
+    const Vec3 extent = box.high - box.low;
+    const double longest = std::max({extent.x, extent.y, extent.z});
+    VoxelGrid grid;
+    grid.voxel = longest / std::max(1.0, resolution - 1 - 2 * padding_voxels);
+    for (int i = 0; i < 3; ++i) {
+        grid.size[i] =
+            static_cast<uint32_t>(std::ceil(extent[i] / grid.voxel - 1e-9) + 2 * padding_voxels) + 1;
+    }
+    return grid;
+}
+
+Box bakeable_box(const ExactDistance& solid) {
     const Box box = solid.bounds();
     if (box.empty() || !is_finite(box.low) || !is_finite(box.high) || !(box.diagonal() > 0)) {
         throw InputError("only a bounded solid with an extent can be baked into a distance field");
     }
-    DistanceVolume volume = layout(box, resolution);
+    return box;
+}
+
+DistanceVolume bake(const ExactDistance& solid, uint32_t resolution, Progress& progress) {
+    DistanceVolume volume = layout(bakeable_box(solid), resolution);
     volume.texels.resize(4 * size_t{volume.size[0]} * volume.size[1] * volume.size[2]);
     constexpr size_t layers_at_once = 8;
     for (size_t z0 = 0; z0 < volume.size[2]; z0 += layers_at_once) {

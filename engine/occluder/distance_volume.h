@@ -27,6 +27,16 @@ struct DistanceVolume {
     glm::dvec4 texel(const Vec3& uvw) const;
 };
 
+/// Where bake() puts its voxels: `resolution` along the longest side of the box plus padding.
+struct VoxelGrid {
+    double voxel = 0;
+    std::array<uint32_t, 3> size{};
+};
+VoxelGrid voxel_grid(const Box& box, uint32_t resolution);
+
+/// The solid's bounds. @throws InputError if it is unbounded or has no extent.
+Box bakeable_box(const ExactDistance& solid);
+
 /// Samples `solid` on a grid with `resolution` voxels along the longest side of its bounds plus padding.
 /// @throws InputError if the solid is unbounded or has no extent; Cancelled.
 DistanceVolume bake(const ExactDistance& solid, uint32_t resolution, Progress& progress);

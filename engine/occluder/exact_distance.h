@@ -6,7 +6,9 @@
 #include "engine/mesh/mesh.h"
 #include "engine/occluder/kernel_types.h"
 
+#include <algorithm>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace anvil {
@@ -16,11 +18,16 @@ struct SignedDistance {
     Vec3 normal;     ///< outward unit normal: from the closest surface point, or towards it when inside
 };
 
-/// Thread-safe; built once.
+/// Thread-safe; built once. Whatever can be asked for signed distances is baked, finished and probed through
+/// this alone.
 class ExactDistance {
   public:
     virtual ~ExactDistance() = default;
     virtual SignedDistance at(const Vec3& p) const = 0;
+    /// The same at many points, of the same number as `found`; quick where each is near the one before.
+    virtual void trace(std::span<const Vec3> points, std::span<SignedDistance> found) const {
+        std::transform(points.begin(), points.end(), found.begin(), [this](const Vec3& p) { return at(p); });
+    }
     /// Box of the solid; infinite for unbounded shapes.
     virtual Box bounds() const = 0;
 };

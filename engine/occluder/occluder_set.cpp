@@ -15,15 +15,16 @@ namespace k = kernel::f64;
 constexpr double steps_across = 128;   // analytic shapes: h = diagonal / 128 (mathematics of contact)
 constexpr double default_sigma = 0.05; // of the bounding radius
 
-k::ShapeNode volume_node(const DistanceVolume& volume) {
+template <class Sampled>
+k::ShapeNode sampled_node(uint32_t kind, const Sampled& field) {
     k::ShapeNode node{};
-    node.kind = k::SHAPE_VOLUME;
-    node.size = volume.half_size;
-    node.extra = volume.voxel;
+    node.kind = kind;
+    node.size = field.half_size;
+    node.extra = field.voxel;
     node.axis_x = Vec3(1, 0, 0);
     node.axis_y = Vec3(0, 1, 0);
     node.axis_z = Vec3(0, 0, 1);
-    node.origin = volume.centre;
+    node.origin = field.centre;
     node.scale = 1;
     return node;
 }
@@ -36,9 +37,14 @@ bool bounded(const Box& box) {
 void set_contact(k::Occluder& occluder, const OccluderModel& model, double size) {
     double h = size / steps_across;
     occluder.settle = 0;
+    const auto take = [&](const auto& field) {
+        h = field.voxel * occluder.scale;
+        occluder.settle = field.error * occluder.scale;
+    };
     if (!model.volumes.empty()) {
-        h = model.volumes.front()->voxel * occluder.scale;
-        occluder.settle = model.volumes.front()->error * occluder.scale;
+        take(*model.volumes.front());
+    } else if (model.field) {
+        take(*model.field);
     }
     occluder.margin = h;
     occluder.step = 0.5 * h;
@@ -73,6 +79,19 @@ void set_influence(OccluderSet& set, k::Occluder& occluder, const Influence& inf
     }
 }
 
+/// @return where the field's words begin. A field that is alone is shared, not copied.
+uint32_t add_words(OccluderSet& set, const std::shared_ptr<const AdaptiveField>& field) {
+    if (!set.field_words) {
+        set.field_words = {field, &field->words};
+        return 0;
+    }
+    const size_t first = set.field_words->size();
+    auto joined = std::make_shared<std::vector<uint32_t>>(*set.field_words);
+    joined->insert(joined->end(), field->words.begin(), field->words.end());
+    set.field_words = std::move(joined);
+    return static_cast<uint32_t>(first);
+}
+
 SignedDistance in_world(const k::Occluder& occluder, const ExactDistance& exact, const Vec3& p) {
     const Vec3 arm = (p - occluder.origin) / occluder.scale;
     const Vec3 local(glm::dot(occluder.axis_x, arm), glm::dot(occluder.axis_y, arm),
@@ -98,11 +117,24 @@ OccluderModel build_model(const OccluderShape& shape, const Field& field, Progre
         throw InputError(
             "the solid is empty: its parts leave nothing over; move them so that something remains");
     }
-    if (field.kind == FieldKind::dense) {
-        model.volumes.push_back(
-            std::make_shared<DistanceVolume>(bake(*model.exact, field.resolution, progress)));
-        model.nodes = {volume_node(*model.volumes.front())};
+    if (field.kind == FieldKind::exact) {
+        return model;
     }
+    return sampled_model(model.exact, field, progress);
+}
+
+OccluderModel sampled_model(std::shared_ptr<const ExactDistance> solid, const Field& field,
+                            Progress& progress) {
+    OccluderModel model;
+    if (field.kind == FieldKind::dense) {
+        model.volumes.push_back(std::make_shared<DistanceVolume>(bake(*solid, field.resolution, progress)));
+        model.nodes = {sampled_node(k::SHAPE_VOLUME, *model.volumes.front())};
+    } else {
+        model.field = std::make_shared<AdaptiveField>(bake_adaptive(*solid, field.resolution, progress));
+        model.nodes = {sampled_node(k::SHAPE_BRICKS, *model.field)};
+    }
+    model.bounds = solid->bounds();
+    model.exact = std::move(solid);
     return model;
 }
 
@@ -111,7 +143,7 @@ void add_occluder(OccluderSet& set, const OccluderModel& model, const std::strin
     if (set.volumes.size() + model.volumes.size() > k::MAX_VOLUMES) {
         throw InputError("occluder \"" + name + "\": an edit can use at most " +
                          std::to_string(k::MAX_VOLUMES) +
-                         " baked occluders: leave some out, or give analytic shapes no field");
+                         " densely baked occluders: give some an adaptive field, or leave some out");
     }
     const Placement place = placement(pose);
     k::Occluder occluder{};
@@ -127,8 +159,10 @@ void add_occluder(OccluderSet& set, const OccluderModel& model, const std::strin
     set_influence(set, occluder, influence,
                   default_sigma * (bounded(model.bounds) ? 0.5 * size : scale.radius));
 
+    const uint32_t first_word = model.field ? add_words(set, model.field) : 0;
     for (k::ShapeNode node : model.nodes) {
         node.volume += static_cast<uint32_t>(set.volumes.size());
+        node.words += first_word;
         set.nodes.push_back(node);
     }
     set.volumes.insert(set.volumes.end(), model.volumes.begin(), model.volumes.end());

@@ -3,6 +3,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/edit/recipe.h"
+#include "engine/occluder/adaptive_field.h"
 #include "engine/occluder/distance_volume.h"
 #include "engine/occluder/exact_distance.h"
 #include "engine/occluder/kernel_types.h"
@@ -28,6 +29,7 @@ struct OccluderSet {
     std::vector<kernel::f64::ShapeNode> nodes;
     std::vector<kernel::f64::ShapeSegment> segments; ///< influence curves
     std::vector<std::shared_ptr<const DistanceVolume>> volumes;
+    std::shared_ptr<const std::vector<uint32_t>> field_words; ///< of all adaptive fields; empty: none
     std::vector<std::shared_ptr<const ExactDistance>> exact;
     std::vector<double> sizes; ///< diagonal of the occluder's bounds, of the mesh's if it is unbounded
     bool paper = false;        ///< all act by the paper's literal influence
@@ -37,6 +39,7 @@ struct OccluderSet {
 
     bool empty() const { return occluders.empty(); }
     bool moves() const { return !motions.empty(); }
+    const uint32_t* words() const { return field_words ? field_words->data() : nullptr; }
 };
 
 /// What of an occluder does not depend on pose or influence: built once a recipe, baked where the recipe says
@@ -44,6 +47,7 @@ struct OccluderSet {
 struct OccluderModel {
     std::vector<kernel::f64::ShapeNode> nodes; ///< what the kernels evaluate; volume leaves count from 0
     std::vector<std::shared_ptr<const DistanceVolume>> volumes;
+    std::shared_ptr<const AdaptiveField> field; ///< empty unless baked adaptively
     std::shared_ptr<const ExactDistance> exact;
     Box bounds; ///< in the occluder's space; infinite for unbounded shapes
 };
@@ -54,6 +58,11 @@ struct OccluderModel {
 OccluderModel build_model(const OccluderShape& shape, const Field& field, Progress& progress,
                           const SolidSource& source = {});
 
+/// A model baked from any bounded solid with a true distance; `field` is dense or adaptive.
+/// @throws InputError if the solid is unbounded or has no extent; Cancelled.
+OccluderModel sampled_model(std::shared_ptr<const ExactDistance> solid, const Field& field,
+                            Progress& progress);
+
 /// What the occluders' defaults refer to.
 struct OccluderScale {
     Vec3 origin;     ///< local origin, world
@@ -61,8 +70,8 @@ struct OccluderScale {
     double radius;   ///< of influence of the edit, R: sigma of a plane
 };
 
-/// Adds an occluder with its pose (world) and influence. @throws InputError if it needs more sampled fields
-/// than an edit can hold.
+/// Adds an occluder with its pose (world) and influence. @throws InputError if it needs more densely sampled
+/// fields than an edit can hold.
 void add_occluder(OccluderSet& set, const OccluderModel& model, const std::string& name,
                   const Transform& pose, const Influence& influence, const OccluderScale& scale);
 

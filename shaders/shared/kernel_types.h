@@ -26,20 +26,32 @@ const uint SHAPE_CAPSULE = 3u;
 const uint SHAPE_CONE = 4u;
 const uint SHAPE_TORUS = 5u;
 const uint SHAPE_PLANE = 6u;
-const uint SHAPE_VOLUME = 7u;
-const uint SHAPE_UNION = 8u;
-const uint SHAPE_INTERSECTION = 9u;
-const uint SHAPE_SUBTRACTION = 10u;
+const uint SHAPE_VOLUME = 7u; // sampled densely
+const uint SHAPE_BRICKS = 8u; // sampled adaptively
+const uint SHAPE_UNION = 9u;
+const uint SHAPE_INTERSECTION = 10u;
+const uint SHAPE_SUBTRACTION = 11u;
 const uint MAX_SHAPE_STACK = 8u; // operands that wait at once
-const uint MAX_VOLUMES = 8u;     // sampled fields of one edit
+const uint MAX_VOLUMES = 8u;     // densely sampled fields of one edit
+
+// An adaptively sampled field is a run of words: first a table with one word for each brick of the finest
+// level in its box, x fastest: the level << BRICK_LEVEL_SHIFT, plus the word where the samples of the brick
+// that holds this place begin. A brick of level l has BRICK_CELLS cells along each side, each 2^l voxels
+// wide, and samples at their corners, x fastest. A sample is a half float, the distance in voxels, in the low
+// 16 bits, and above it the outward normal's octahedral coordinates, two signed bytes in units of 1 / 127.
+const uint BRICK_CELLS = 4u;
+const uint BRICK_SIDE = 5u; // samples
+const uint BRICK_LEVEL_SHIFT = 28u;
 
 // A leaf or operator of an occluder. Leaf space: axes rows axis_x..z, `origin` and `scale` as seen from the
 // occluder's space. size: sphere (radius), box (half extents), cylinder, capsule, cone (radius, half height),
-// torus (major, minor), plane (unit normal), volume (half extents of the box of outermost voxel centres).
-// extra: box rounding, plane offset, volume voxel width.
+// torus (major, minor), plane (unit normal), volume and bricks (half extents of the box of outermost samples).
+// extra: box rounding, plane offset, voxel width. volume: which one of its kind. words: where the words of an
+// adaptive field begin among those of all.
 struct ShapeNode {
     uint kind;
     uint volume;
+    uint words;
     real3 size;
     real extra;
     real3 axis_x;

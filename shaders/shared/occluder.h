@@ -1,6 +1,8 @@
 // Signed distance (< 0 inside) and outward unit normal of occluders, alike in C++ and GLSL.
 // The includer provides the arrays `nodes` and `occluders` and `real4 volume_texel(uint volume, real3 uvw)`:
-// filtered (normal, distance) of a sampled field, uvw in [0, 1] between the outermost voxel centres.
+// filtered (normal, distance) of a sampled field, uvw in [0, 1] between the outermost voxel centres;
+// `uint brick_word(ShapeNode node, uint index)`: a word of the node's adaptive field, and `real
+// half_value(uint word)`: the half float in a word's low bits.
 // `bool shape_is(uint kind, uint wanted)`: kind == wanted, where the includer may know that no node is of a
 // kind.
 
@@ -121,10 +123,9 @@ Probe torus_probe(real3 p, real major, real minor) {
     return revolved(p, radial, reach - minor, reach > 0.0 ? a * inverse : real(1.0), p.y * inverse);
 }
 
-// Sampled field. Outside its box: a lower bound of the distance for an occluder that lies inside the box.
-Probe volume_probe(uint volume, real3 p, real3 half_size) {
-    real3 c = clamp(p, -half_size, half_size);
-    real4 texel = volume_texel(volume, 0.5 * (c / half_size) + real3(0.5));
+// Sampled field at p, of which the `texel` (normal, distance) is that at c, the nearest place in its box.
+// Outside the box: a lower bound of the distance for an occluder that lies inside the box.
+Probe sampled_probe(real4 texel, real3 p, real3 c) {
     real3 normal = unit_or(real3(texel.x, texel.y, texel.z), real3(0.0, 1.0, 0.0));
     real3 beyond = p - c;
     real reach = length(beyond);
@@ -136,6 +137,58 @@ Probe volume_probe(uint volume, real3 p, real3 half_size) {
         result.normal = unit_or(beyond + max(texel.w, real(0.0)) * normal, normal);
     }
     return result;
+}
+
+Probe volume_probe(uint volume, real3 p, real3 half_size) {
+    real3 c = clamp(p, -half_size, half_size);
+    return sampled_probe(volume_texel(volume, 0.5 * (c / half_size) + real3(0.5)), p, c);
+}
+
+// A sample of an adaptive field: its normal (not of unit length) and the distance in voxels.
+real4 brick_sample(uint word) {
+    real x = real(int(word << 8u) >> 24) / 127.0;
+    real y = real(int(word) >> 24) / 127.0;
+    real z = 1.0 - abs(x) - abs(y);
+    real fold = max(-z, real(0.0));
+    x -= x < 0.0 ? -fold : fold;
+    y -= y < 0.0 ? -fold : fold;
+    return real4(x, y, z, half_value(word));
+}
+
+// Samples at the ends of a cell's edge along x, from word `index` on, interpolated at t.
+real4 brick_edge(ShapeNode node, uint index, real t) {
+    real4 low = brick_sample(brick_word(node, index));
+    return low + t * (brick_sample(brick_word(node, index + 1u)) - low);
+}
+
+real4 brick_face(ShapeNode node, uint index, real3 t) {
+    real4 low = brick_edge(node, index, t.x);
+    return low + t.y * (brick_edge(node, index + BRICK_SIDE, t.x) - low);
+}
+
+// Trilinear (normal, distance) of an adaptive field at c in its box, relative to the box's centre.
+real4 brick_texel(ShapeNode node, real3 c) {
+    real3 place = max((c + node.size) / node.extra, real3(0.0)); // in voxels
+    real width = real(BRICK_CELLS);
+    real3 grid = floor(2.0 * node.size / (width * node.extra) + 0.5);
+    real3 brick = min(floor(place / width), grid - 1.0);
+    uint entry =
+        brick_word(node, uint(brick.x) + uint(grid.x) * (uint(brick.y) + uint(grid.y) * uint(brick.z)));
+    real scale = real(1u << (entry >> BRICK_LEVEL_SHIFT));
+    real3 within = place / scale - width * floor(brick / scale); // in cells of the brick's own level
+    real3 cell = clamp(floor(within), real3(0.0), real3(width - 1.0));
+    uint low = (entry & ((1u << BRICK_LEVEL_SHIFT) - 1u)) + uint(cell.x) +
+               BRICK_SIDE * (uint(cell.y) + BRICK_SIDE * uint(cell.z));
+    real3 t = within - cell;
+    real4 texel = brick_face(node, low, t);
+    texel += t.z * (brick_face(node, low + BRICK_SIDE * BRICK_SIDE, t) - texel);
+    texel.w *= node.extra;
+    return texel;
+}
+
+Probe bricks_probe(ShapeNode node, real3 p) {
+    real3 c = clamp(p, -node.size, node.size);
+    return sampled_probe(brick_texel(node, c), p, c);
 }
 
 Probe leaf_probe(ShapeNode node, real3 p) {
@@ -161,6 +214,8 @@ Probe leaf_probe(ShapeNode node, real3 p) {
         result.normal = node.size;
     } else if (shape_is(node.kind, SHAPE_VOLUME)) {
         result = volume_probe(node.volume, q, node.size);
+    } else if (shape_is(node.kind, SHAPE_BRICKS)) {
+        result = bricks_probe(node, q);
     }
     result.distance = result.distance * node.scale;
     result.normal =

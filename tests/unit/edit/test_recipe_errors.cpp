@@ -96,6 +96,4 @@ TEST_CASE("wrong types say what was found and what is wanted") {
 
 TEST_CASE("keys of later versions say not yet") {
     check_complaint(minimal(R"(, "mirror": {"axis": "x", "origin": 0})"), {"mirror", "not yet"});
-    check_complaint(with_occluder(ball + R"(, "field": {"kind": "adaptive"})"),
-                    {"field.kind", "not yet", "dense"});
 }

@@ -99,16 +99,25 @@ TEST_CASE("paper shares an edit with no other influence") {
                     {"steps", "paper", "count"});
 }
 
-TEST_CASE("A mesh is an occluder's shape by its file, baked densely unless it is part of nothing exact") {
+TEST_CASE("A mesh is an occluder's shape by its file, baked adaptively unless the recipe says densely") {
     const Recipe recipe = parse_recipe(with_shape(R"({"mesh": "tool.obj"})"), "folder/recipe.json");
     CHECK(std::get<MeshShape>(recipe.occluders[0].shape.solid).file == "tool.obj");
     CHECK_FALSE(has_formula(recipe.occluders[0].shape));
-    CHECK(field_of(recipe.occluders[0]).kind == FieldKind::dense);
+    CHECK(field_of(recipe.occluders[0]).kind == FieldKind::adaptive);
     CHECK(recipe_folder(recipe) == "folder");
     CHECK(parse_recipe(write_recipe(recipe), "folder/recipe.json") == recipe);
     check_complaint(with_shape(R"({"mesh": ""})"), {"occluders[0].shape.mesh", "path of a mesh file"});
     check_complaint(with_occluder(R"("shape": {"mesh": "tool.obj"}, "field": {"kind": "exact"})"),
-                    {"field", "no formula", "dense"});
+                    {"field", "no formula", "adaptive"});
+    for (const auto& [name, kind] :
+         {std::pair{"dense", FieldKind::dense}, std::pair{"adaptive", FieldKind::adaptive}}) {
+        const Recipe baked =
+            parse_recipe(with_occluder(R"("shape": {"mesh": "tool.obj"}, "field": {"kind": ")" +
+                                       std::string(name) + R"(", "resolution": 64})"),
+                         "folder/recipe.json");
+        CHECK(baked.occluders[0].field == Field{kind, 64});
+        CHECK(parse_recipe(write_recipe(baked), "folder/recipe.json") == baked);
+    }
 }
 
 TEST_CASE("A level set is an occluder's shape by its file and, where it has several, its grid") {

@@ -1,0 +1,391 @@
+#include "engine/occluder/brick_tree.h"
+
+#include "engine/core/parallel_for.h"
+#include "engine/occluder/adaptive_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
+
+namespace anvil {
+
+namespace {
+
+// Voxels around the surface where the finest level is tried before a coarser one is found good enough, so
+// that nothing as small as a voxel slips through between the samples of coarse levels.
+constexpr double surface_reach = 2;
+constexpr size_t bricks_at_once = 512;
+
+int sample_index(int x, int y, int z) {
+    return x + brick_side * (y + brick_side * z);
+}
+
+/// All places of a side^3 lattice, each beside the one before.
+std::vector<CellIndex> winding_path(int side) {
+    std::vector<CellIndex> path;
+    for (int z = 0; z < side; ++z) {
+        for (int j = 0; j < side; ++j) {
+            const int y = z % 2 == 0 ? j : side - 1 - j;
+            for (int i = 0; i < side; ++i) {
+                path.emplace_back((y + z) % 2 == 0 ? i : side - 1 - i, y, z);
+            }
+        }
+    }
+    return path;
+}
+
+int octant_of(const CellIndex& cell) {
+    constexpr int half = brick_cells / 2;
+    return (cell.x >= half ? 1 : 0) + (cell.y >= half ? 2 : 0) + (cell.z >= half ? 4 : 0);
+}
+
+/// Samples one brick after the other; one object a thread.
+class BrickSampler {
+  public:
+    BrickSampler(const ExactDistance& solid, const BrickLayout& layout)
+        : solid_(solid), layout_(layout), corners_(winding_path(brick_side)),
+          cells_(winding_path(brick_cells)) {}
+
+    void sample(Brick& brick) {
+        points_.clear();
+        for (const CellIndex& corner : corners_) {
+            points_.push_back(point(brick, Vec3(corner)));
+        }
+        trace();
+        for (size_t i = 0; i < corners_.size(); ++i) {
+            const CellIndex& c = corners_[i];
+            brick.samples[sample_index(c.x, c.y, c.z)] =
+                glm::vec4(found_[i].normal, found_[i].distance / layout_.voxel);
+        }
+    }
+
+    /// Octants that the surface is near to, or that the brick interpolates too badly.
+    uint8_t octants_to_refine(const Brick& brick) {
+        const uint8_t near = octants_near_surface(brick);
+        test_cells(brick, [&](const CellIndex& cell) { return (near >> octant_of(cell) & 1) == 0; });
+        uint8_t bad = near;
+        for (size_t i = 0; i < tested_.size(); ++i) {
+            const double distance = found_[i].distance / layout_.voxel;
+            if (error(brick, i) > adaptive_tolerance(distance)) {
+                bad |= static_cast<uint8_t>(1 << octant_of(tested_[i]));
+            }
+        }
+        return bad;
+    }
+
+    /// Whether the coarser brick interpolates well enough at all of this one's samples.
+    static bool spared_by(const Brick& coarser, const Brick& brick) {
+        for (int i = 0; i < brick_samples; ++i) {
+            const CellIndex s(i % brick_side, i / brick_side % brick_side, i / (brick_side * brick_side));
+            const double distance = brick.samples[i].w;
+            const double other = coarser.interpolated(Vec3(brick.origin() + (s << brick.level))).w;
+            if (std::abs(other - distance) > adaptive_tolerance(distance)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /// Largest interpolation error at some of the cells' centres near the surface, in voxels.
+    double surface_error(const Brick& brick) {
+        const CellIndex& p = brick.place;
+        const int phase = (p.x + 2 * p.y + 4 * p.z) & 7; // all cells take their turn from brick to brick
+        test_cells(brick, [&](const CellIndex& cell) {
+            const int turn = (cell.x & 1) + 2 * (cell.y & 1) + 4 * (cell.z & 1);
+            return turn == phase &&
+                   std::abs(brick.samples[sample_index(cell.x, cell.y, cell.z)].w) < surface_reach;
+        });
+        double worst = 0;
+        for (size_t i = 0; i < tested_.size(); ++i) {
+            worst = std::max(worst, error(brick, i));
+        }
+        return worst;
+    }
+
+  private:
+    Vec3 cells_at(const Brick& brick, const Vec3& within) const {
+        return Vec3(brick.origin()) + static_cast<double>(1 << brick.level) * within;
+    }
+    Vec3 point(const Brick& brick, const Vec3& within) const {
+        return layout_.point(cells_at(brick, within));
+    }
+
+    void trace() {
+        found_.resize(points_.size());
+        solid_.trace(points_, found_);
+    }
+
+    template <class Wanted>
+    void test_cells(const Brick& brick, const Wanted& wanted) {
+        points_.clear();
+        tested_.clear();
+        for (const CellIndex& cell : cells_) {
+            if (wanted(cell)) {
+                tested_.push_back(cell);
+                points_.push_back(point(brick, Vec3(cell) + Vec3(0.5)));
+            }
+        }
+        trace();
+    }
+
+    double error(const Brick& brick, size_t i) const {
+        const double interpolated = brick.interpolated(cells_at(brick, Vec3(tested_[i]) + Vec3(0.5))).w;
+        return std::abs(interpolated - found_[i].distance / layout_.voxel);
+    }
+
+    /// A point within reach of the surface has a sample, within half a cell's diagonal, that shows it.
+    static uint8_t octants_near_surface(const Brick& brick) {
+        const double reach = surface_reach + 0.5 * std::sqrt(3.0) * (1 << brick.level);
+        constexpr int half = brick_cells / 2;
+        uint8_t near = 0;
+        for (int octant = 0; octant < 8; ++octant) {
+            const CellIndex low(octant & 1 ? half : 0, octant & 2 ? half : 0, octant & 4 ? half : 0);
+            for (int i = 0; i < 27; ++i) {
+                const CellIndex s = low + CellIndex(i % 3, i / 3 % 3, i / 9);
+                if (std::abs(brick.samples[sample_index(s.x, s.y, s.z)].w) <= reach) {
+                    near |= static_cast<uint8_t>(1 << octant);
+                }
+            }
+        }
+        return near;
+    }
+
+    const ExactDistance& solid_;
+    const BrickLayout& layout_;
+    std::vector<CellIndex> corners_;
+    std::vector<CellIndex> cells_;
+    std::vector<CellIndex> tested_;
+    std::vector<Vec3> points_;
+    std::vector<SignedDistance> found_;
+};
+
+/// Where a brick is wanted, and whose octant that is.
+struct Wanted {
+    CellIndex place{0};
+    size_t parent = 0;
+    int octant = 0;
+};
+
+std::vector<Wanted> wanted_roots(const BrickLayout& layout) {
+    const CellIndex count = layout.grid >> layout.top_level;
+    std::vector<Wanted> wanted;
+    for (int i = 0; i < count.x * count.y * count.z; ++i) {
+        wanted.push_back({{i % count.x, i / count.x % count.y, i / (count.x * count.y)}});
+    }
+    return wanted;
+}
+
+std::vector<Wanted> wanted_children(const std::vector<Brick>& bricks, size_t first) {
+    std::vector<Wanted> wanted;
+    for (size_t parent = first; parent < bricks.size(); ++parent) {
+        for (int octant = 0; octant < 8; ++octant) {
+            if ((bricks[parent].refined >> octant & 1) != 0) {
+                const CellIndex corner(octant & 1, octant >> 1 & 1, octant >> 2);
+                wanted.push_back({bricks[parent].place * 2 + corner, parent, octant});
+            }
+        }
+    }
+    return wanted;
+}
+
+/// Takes out finest bricks that their parents spare, and bricks of which nothing is left.
+void remove_needless(std::vector<Brick>& bricks, size_t first_finest, const std::vector<Wanted>& wanted,
+                     const std::vector<bool>& spared) {
+    for (size_t i = 0; i < wanted.size(); ++i) {
+        if (spared[i]) {
+            bricks[wanted[i].parent].refined &= static_cast<uint8_t>(~(1 << wanted[i].octant));
+            bricks[first_finest + i].refined = 0xff;
+        }
+    }
+    std::erase_if(bricks, [](const Brick& brick) { return brick.refined == 0xff; });
+}
+
+/// Adds level after level to a tree.
+class BrickGrower {
+  public:
+    BrickGrower(const ExactDistance& solid, BrickTree& tree, Progress& progress)
+        : solid_(solid), tree_(tree), progress_(progress), wanted_(wanted_roots(tree.layout)) {}
+
+    void grow(int level) {
+        if (level < tree_.layout.top_level) {
+            wanted_ = wanted_children(tree_.bricks, first_);
+        }
+        first_ = tree_.bricks.size();
+        tree_.bricks.resize(first_ + wanted_.size());
+        errors_.assign(wanted_.size(), 0.0);
+        for (size_t begin = 0; begin < wanted_.size(); begin += bricks_at_once) {
+            // Each level takes about four times as long as the one before.
+            const double part = static_cast<double>(begin) / static_cast<double>(wanted_.size());
+            progress_.report("bake", std::pow(0.25, level) * (0.25 + 0.75 * part));
+            parallel_for(std::min(bricks_at_once, wanted_.size() - begin), 1, [&](size_t from, size_t to) {
+                BrickSampler sampler(solid_, tree_.layout);
+                for (size_t i = begin + from; i < begin + to; ++i) {
+                    sample(sampler, i, level);
+                }
+            });
+        }
+    }
+
+    /// After the finest level.
+    void finish() {
+        std::vector<bool> spared;
+        for (const double error : errors_) {
+            spared.push_back(error < 0);
+            tree_.error = std::max(tree_.error, error);
+        }
+        remove_needless(tree_.bricks, first_, wanted_, spared);
+    }
+
+  private:
+    void sample(BrickSampler& sampler, size_t i, int level) {
+        Brick& brick = tree_.bricks[first_ + i];
+        brick.place = wanted_[i].place;
+        brick.level = level;
+        sampler.sample(brick);
+        if (level > 0) {
+            brick.refined = sampler.octants_to_refine(brick);
+        } else if (level < tree_.layout.top_level &&
+                   BrickSampler::spared_by(tree_.bricks[wanted_[i].parent], brick)) {
+            errors_[i] = -1;
+        } else {
+            errors_[i] = sampler.surface_error(brick);
+        }
+    }
+
+    const ExactDistance& solid_;
+    BrickTree& tree_;
+    Progress& progress_;
+    std::vector<Wanted> wanted_;
+    size_t first_ = 0;           ///< brick of the level at work
+    std::vector<double> errors_; ///< of its bricks; -1: not needed
+};
+
+glm::vec4 rounded_as_stored(const glm::dvec4& value) {
+    return {glm::vec3(value), glm::unpackHalf1x16(glm::packHalf1x16(static_cast<float>(value.w)))};
+}
+
+/// What a brick needs to take over values from its coarser neighbours.
+class Stitcher {
+  public:
+    Stitcher(BrickTree& tree, const std::vector<uint32_t>& table) : tree_(tree), table_(table) {}
+
+    void stitch(Brick& brick) {
+        for (int i = 0; i < 27; ++i) {
+            neighbours_[i] = neighbour(brick, CellIndex(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+        }
+        for (int z = 0; z < brick_side; ++z) {
+            for (int y = 0; y < brick_side; ++y) {
+                for (int x = 0; x < brick_side; ++x) {
+                    stitch_sample(brick, {x, y, z});
+                }
+            }
+        }
+    }
+
+  private:
+    /// A neighbour that is coarser, else nullptr. One place tells, since coarser bricks cover whole blocks.
+    const Brick* neighbour(const Brick& brick, const CellIndex& step) const {
+        const CellIndex place = (brick.place + step) << brick.level;
+        const glm::ivec3& grid = tree_.layout.grid;
+        if (glm::any(glm::lessThan(place, CellIndex(0))) || glm::any(glm::greaterThanEqual(place, grid))) {
+            return nullptr;
+        }
+        const Brick& found = tree_.bricks[table_[place.x + grid.x * (place.y + grid.y * place.z)]];
+        return found.level > brick.level ? &found : nullptr;
+    }
+
+    void stitch_sample(Brick& brick, const CellIndex& s) {
+        const Brick* coarsest = nullptr;
+        for (int i = 0; i < 27; ++i) {
+            const CellIndex step(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+            if (neighbours_[i] != nullptr && touches(s, step) &&
+                (coarsest == nullptr || neighbours_[i]->level > coarsest->level)) {
+                coarsest = neighbours_[i];
+            }
+        }
+        glm::vec4& sample = brick.samples[sample_index(s.x, s.y, s.z)];
+        glm::dvec4 value(sample);
+        if (coarsest != nullptr) {
+            value = coarsest->interpolated(Vec3(brick.origin() + (s << brick.level)));
+        }
+        sample = rounded_as_stored(value);
+    }
+
+    static bool touches(const CellIndex& s, const CellIndex& step) {
+        for (int i = 0; i < 3; ++i) {
+            if ((step[i] < 0 && s[i] != 0) || (step[i] > 0 && s[i] != brick_cells)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    BrickTree& tree_;
+    const std::vector<uint32_t>& table_;
+    std::array<const Brick*, 27> neighbours_{};
+};
+
+} // namespace
+
+glm::dvec4 Brick::interpolated(const Vec3& cells) const {
+    const Vec3 within = (cells - Vec3(origin())) / static_cast<double>(1 << level);
+    const Vec3 low = glm::clamp(glm::floor(within), Vec3(0), Vec3(brick_cells - 1));
+    const Vec3 t = within - low;
+    const int first = sample_index(static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(low.z));
+    glm::dvec4 sum(0);
+    for (int corner = 0; corner < 8; ++corner) {
+        const int dx = corner & 1;
+        const int dy = corner >> 1 & 1;
+        const int dz = corner >> 2;
+        const double weight = (dx ? t.x : 1 - t.x) * (dy ? t.y : 1 - t.y) * (dz ? t.z : 1 - t.z);
+        sum += weight * glm::dvec4(samples[first + sample_index(dx, dy, dz)]);
+    }
+    return sum;
+}
+
+BrickTree grow_bricks(const ExactDistance& solid, const BrickLayout& layout, Progress& progress) {
+    BrickTree tree;
+    tree.layout = layout;
+    BrickGrower grower(solid, tree, progress);
+    for (int level = layout.top_level; level >= 0; --level) {
+        grower.grow(level);
+    }
+    grower.finish();
+    return tree;
+}
+
+std::vector<uint32_t> brick_table(const BrickTree& tree) {
+    const glm::ivec3& grid = tree.layout.grid;
+    std::vector<uint32_t> table(size_t(grid.x) * grid.y * grid.z);
+    for (size_t b = 0; b < tree.bricks.size(); ++b) { // finer ones overwrite, they come later
+        const Brick& brick = tree.bricks[b];
+        const int width = 1 << brick.level;
+        const CellIndex low = brick.place * width;
+        for (int z = low.z; z < low.z + width; ++z) {
+            for (int y = low.y; y < low.y + width; ++y) {
+                const auto row = table.begin() + (low.x + grid.x * (y + std::ptrdiff_t(grid.y) * z));
+                std::fill(row, row + width, static_cast<uint32_t>(b));
+            }
+        }
+    }
+    return table;
+}
+
+void stitch_levels(BrickTree& tree, const std::vector<uint32_t>& table) {
+    size_t begin = 0;
+    while (begin < tree.bricks.size()) { // coarse levels first: what is taken over is final
+        size_t end = begin;
+        while (end < tree.bricks.size() && tree.bricks[end].level == tree.bricks[begin].level) {
+            ++end;
+        }
+        parallel_for(end - begin, 64, [&](size_t from, size_t to) {
+            Stitcher stitcher(tree, table);
+            for (size_t i = begin + from; i < begin + to; ++i) {
+                stitcher.stitch(tree.bricks[i]);
+            }
+        });
+        begin = end;
+    }
+}
+
+} // namespace anvil

@@ -1,0 +1,261 @@
+// Baked distance fields of meshes, dense and adaptive: processor seconds to bake, memory, time per step of the
+// deformation, errors at random points, and how far the results of an edit differ.
+//   bench_occluder [--no-dense] [--points N] [--resolution N ...] MESH or SAMPLE:VERTICES ...
+#include "engine/core/log.h"
+#include "engine/core/parallel_for.h"
+#include "engine/deform/backend.h"
+#include "engine/mesh/mesh_reader.h"
+#include "engine/mesh/sample_shapes.h"
+#include "engine/occluder/mesh_distance.h"
+#include "engine/occluder/occluder_kernel.h"
+#include "engine/occluder/occluder_set.h"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <random>
+#include <string>
+
+using namespace anvil;
+
+namespace {
+
+/// Processor time of this process, all threads: other work on the machine disturbs it least.
+double seconds() {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+Mesh mesh_named(const std::string& name) {
+    const size_t colon = name.rfind(':');
+    if (colon != std::string::npos) {
+        return make_sample(name.substr(0, colon), std::strtoul(name.c_str() + colon + 1, nullptr, 10));
+    }
+    Log log;
+    return read_mesh(name, log);
+}
+
+struct Options {
+    bool dense = true;
+    size_t points = 1000000;
+    std::vector<uint32_t> resolutions;
+    std::vector<std::string> meshes;
+};
+
+/// A field as the kernels see it.
+struct Baked {
+    OccluderSet set;
+    double voxel = 0;
+    double error = 0;
+    double seconds = 0;
+    double megabytes = 0;
+};
+
+Baked baked(const std::shared_ptr<const ExactDistance>& exact, FieldKind kind, uint32_t resolution,
+            InfluenceKind influence) {
+    Progress progress;
+    const double start = seconds();
+    const OccluderModel model = sampled_model(exact, {kind, resolution}, progress);
+    Baked result;
+    result.seconds = seconds() - start;
+    result.voxel = model.field ? model.field->voxel : model.volumes.front()->voxel;
+    result.error = model.field ? model.field->error : model.volumes.front()->error;
+    result.megabytes = static_cast<double>(model.field ? model.field->bytes()
+                                                       : model.volumes.front()->texels.size() * sizeof(float)) /
+                       1e6;
+    const double diagonal = exact->bounds().diagonal();
+    add_occluder(result.set, model, "tool", {}, {influence, 0.9, {}, {}, 0},
+                 {Vec3(0), diagonal, 0.5 * diagonal});
+    return result;
+}
+
+struct Sample {
+    Vec3 point;
+    SignedDistance truth;
+};
+
+/// `band`: within so many voxels of the surface, else anywhere in the box and some way around.
+std::vector<Sample> random_samples(const ExactDistance& exact, size_t count, double band) {
+    const Box box = exact.bounds();
+    const Vec3 margin = 0.02 * (box.high - box.low);
+    std::mt19937_64 random(7);
+    std::vector<Sample> samples;
+    while (samples.size() < count) {
+        std::vector<Sample> more(100000);
+        for (Sample& s : more) {
+            for (int i = 0; i < 3; ++i) {
+                s.point[i] = std::uniform_real_distribution<double>(box.low[i] - margin[i],
+                                                                    box.high[i] + margin[i])(random);
+            }
+        }
+        parallel_for(more.size(), 256, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) {
+                more[i].truth = exact.at(more[i].point);
+            }
+        });
+        std::erase_if(more, [&](const Sample& s) { return !(std::abs(s.truth.distance) <= band); });
+        samples.insert(samples.end(), more.begin(), more.end());
+    }
+    samples.resize(count);
+    return samples;
+}
+
+struct Errors {
+    double rms = 0;
+    double worst = 0;
+    size_t beyond = 0;      ///< more than adaptive_tolerance()
+    size_t wrong_sign = 0;  ///< where |distance| > voxel / 4
+    double normal_rms = 0;  ///< radians
+};
+
+Errors errors_of(const Baked& field, const std::vector<Sample>& samples) {
+    kernel::f64::OccluderKernel kernel{field.set.segments.data(), field.set.nodes.data(),
+                                       field.set.occluders.data(), field.set.volumes.data(),
+                                       field.set.words()};
+    Errors errors;
+    for (const Sample& s : samples) {
+        const auto probe = kernel.occluder_probe(0, s.point);
+        const double error = std::abs(probe.distance - s.truth.distance) / field.voxel;
+        errors.rms += error * error;
+        errors.worst = std::max(errors.worst, error);
+        errors.beyond += error > adaptive_tolerance(s.truth.distance / field.voxel) ? 1 : 0;
+        const bool counts = std::abs(s.truth.distance) > 0.25 * field.voxel;
+        errors.wrong_sign += counts && (probe.distance < 0) != (s.truth.distance < 0) ? 1 : 0;
+        errors.normal_rms += std::pow(glm::length(probe.normal - s.truth.normal), 2);
+    }
+    errors.rms = std::sqrt(errors.rms / static_cast<double>(samples.size()));
+    errors.normal_rms = std::sqrt(errors.normal_rms / static_cast<double>(samples.size()));
+    return errors;
+}
+
+/// Points around the solid, all pushed through it by half its diagonal.
+DeformInput pushed_points(const OccluderSet& set, const Box& box) {
+    std::mt19937_64 random(8);
+    DeformInput input;
+    for (size_t i = 0; i < 100000; ++i) {
+        Vec3 p;
+        for (int axis = 0; axis < 3; ++axis) {
+            p[axis] = std::uniform_real_distribution<double>(box.low[axis], box.high[axis])(random);
+        }
+        input.points.push_back(p);
+    }
+    input.handle_count = 1;
+    input.fields.assign(input.points.size(), 0.0);
+    input.segments = {{0, 1, -1, 0, 0}};
+    input.shapes = {{0, 1}};
+    input.occluders = set;
+    find_start_distances(input);
+    return input;
+}
+
+struct Pushed {
+    double nanoseconds = 0; ///< per evaluation of the field, best of several
+    std::vector<PointResult> results;
+};
+
+Pushed pushed(Backend& backend, const OccluderSet& set, const Box& box) {
+    const DeformInput input = pushed_points(set, box);
+    DeformMotion motion;
+    motion.targets = {0.5 * (box.high - box.low)};
+    const auto session = backend.prepare(input);
+    session->update(motion); // compiles
+    session->wait();
+    double best = infinity;
+    for (int round = 0; round < 5; ++round) {
+        const auto start = std::chrono::steady_clock::now();
+        session->update(motion);
+        session->wait();
+        best = std::min(best,
+                        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+    Pushed result;
+    result.results = session->download();
+    double samples = 0;
+    for (const PointResult& r : result.results) {
+        samples += r.samples;
+    }
+    result.nanoseconds = 1e9 * best / samples;
+    return result;
+}
+
+void print_difference(const Pushed& a, const Pushed& b, double voxel) {
+    std::vector<double> differences;
+    double sum = 0;
+    for (size_t i = 0; i < a.results.size(); ++i) {
+        const double d = glm::length(a.results[i].displacement - b.results[i].displacement) / voxel;
+        differences.push_back(d);
+        sum += d * d;
+    }
+    std::sort(differences.begin(), differences.end());
+    const size_t n = differences.size();
+    std::printf("    dense against adaptive results, voxels: rms %.3f, median %.4f, 99 %% %.3f, worst %.2f\n",
+                std::sqrt(sum / static_cast<double>(n)), differences[n / 2], differences[n * 99 / 100],
+                differences[n - 1]);
+}
+
+void measure(const std::string& name, uint32_t resolution, const Options& options) {
+    const Mesh mesh = mesh_named(name);
+    const double start = seconds();
+    const std::shared_ptr<const ExactDistance> exact = mesh_distance(mesh);
+    const double prepared = seconds() - start;
+    std::printf("%s: %zu triangles, %u voxels, prepared in %.2f s\n", name.c_str(), mesh.triangles.size(),
+                resolution, prepared);
+    const auto backend = make_cpu_backend();
+    std::vector<Pushed> results;
+    double voxel = 0;
+    for (const FieldKind kind : {FieldKind::dense, FieldKind::adaptive}) {
+        if (kind == FieldKind::dense && !options.dense) {
+            continue;
+        }
+        const Baked field = baked(exact, kind, resolution, InfluenceKind::soft);
+        voxel = field.voxel;
+        const Errors all = errors_of(field, random_samples(*exact, options.points, infinity));
+        const Errors band = errors_of(field, random_samples(*exact, options.points / 10, 3 * voxel));
+        results.push_back(pushed(*backend, field.set, exact->bounds()));
+        std::printf("  %-8s bake %7.2f s  %7.2f MB  settle %.3f  band rms %.4f worst %.2f sign %.4f %% normal %.3f | "
+                    "all: rms %.3f worst %.2f beyond %.4f %%  normal %.3f | %s %.1f ns\n",
+                    kind == FieldKind::dense ? "dense" : "adaptive", field.seconds, field.megabytes,
+                    field.error / voxel, band.rms, band.worst,
+                    100.0 * static_cast<double>(band.wrong_sign) / static_cast<double>(options.points / 10),
+                    band.normal_rms, all.rms, all.worst,
+                    100.0 * static_cast<double>(all.beyond) / static_cast<double>(options.points), all.normal_rms,
+                    backend->device_name().c_str(), results.back().nanoseconds);
+    }
+    if (results.size() == 2) {
+        print_difference(results[0], results[1], voxel);
+    }
+}
+
+Options parse(int count, char** arguments) {
+    Options options;
+    for (int i = 1; i < count; ++i) {
+        const std::string word = arguments[i];
+        if (word == "--no-dense") {
+            options.dense = false;
+        } else if (word == "--points" && i + 1 < count) {
+            options.points = std::strtoul(arguments[++i], nullptr, 10);
+        } else if (word == "--resolution" && i + 1 < count) {
+            options.resolutions.push_back(static_cast<uint32_t>(std::strtoul(arguments[++i], nullptr, 10)));
+        } else {
+            options.meshes.push_back(word);
+        }
+    }
+    if (options.resolutions.empty()) {
+        options.resolutions = {64, 128};
+    }
+    if (options.meshes.empty()) {
+        options.meshes = {"bust:50000"};
+    }
+    return options;
+}
+
+} // namespace
+
+int main(int count, char** arguments) {
+    const Options options = parse(count, arguments);
+    for (const std::string& mesh : options.meshes) {
+        for (const uint32_t resolution : options.resolutions) {
+            measure(mesh, resolution, options);
+        }
+    }
+}
