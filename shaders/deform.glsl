@@ -98,8 +98,6 @@ vec4 volume_texel(uint volume, vec3 uvw) {
 
 uint brick_word(ShapeNode node, uint index) { return field_words[node.words + index]; }
 
-float half_value(uint word) { return unpackHalf2x16(word).x; }
-
 #include "shared/shape_function.h"
 #include "shared/occluder.h"
 #include "shared/path.h"

@@ -62,9 +62,8 @@ class DeformPipeline {
     using Cache = std::vector<std::pair<std::weak_ptr<const Source>, std::weak_ptr<const Upload>>>;
 
     template <class Source, class Upload, class Make>
-    static std::shared_ptr<const Upload> cached(Cache<Source, Upload>& cache,
-                                                const std::shared_ptr<const Source>& source,
-                                                const Make& make);
+    static std::shared_ptr<const Upload>
+    cached(Cache<Source, Upload>& cache, const std::shared_ptr<const Source>& source, const Make& make);
 
     std::shared_ptr<Device> device_;
     std::vector<std::pair<DeformVariant, std::unique_ptr<ComputeKernel>>> kernels_;

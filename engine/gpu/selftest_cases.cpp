@@ -344,7 +344,7 @@ std::vector<SelftestCase> selftest_cases() {
     add_hammer_cases(cases);
     add_rule_cases(cases);
     cases.push_back(sampled_case("sampled field", 500));
-    cases.push_back(adaptive_case("adaptive fields", 510));
+    cases.push_back(adaptive_case("adaptive fields", 520));
     return cases;
 }
 

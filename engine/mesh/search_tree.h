@@ -34,6 +34,32 @@ class SearchTree {
     /// Nothing is found in an empty tree, beyond the distance, or for a query that is not finite.
     ClosestPoint closest(const Vec3& query, double max_distance = infinity) const;
 
+    /// Calls visit(triangle) for every triangle whose box overlaps this one, touching included, and for some
+    /// whose box only comes near.
+    template <class Visit>
+    void each_overlapping(const Box& box, const Visit& visit) const {
+        std::vector<uint32_t> stack;
+        if (!nodes_.empty()) {
+            stack.push_back(0);
+        }
+        while (!stack.empty()) {
+            const uint32_t index = stack.back();
+            stack.pop_back();
+            const Node& node = nodes_[index];
+            if (glm::any(glm::lessThan(node.box.high, box.low)) ||
+                glm::any(glm::greaterThan(node.box.low, box.high))) {
+                continue;
+            }
+            for (uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
+                visit(order_[slot]);
+            }
+            if (node.count == 0) {
+                stack.push_back(node.first);
+                stack.push_back(index + 1);
+            }
+        }
+    }
+
     size_t triangle_count() const { return order_.size(); }
 
   private:

@@ -5,7 +5,7 @@
 #include "engine/occluder/distance_volume.h"
 #include "engine/occluder/occluder_kernel.h"
 
-#include <glm/gtc/packing.hpp>
+#include <cmath>
 
 namespace anvil {
 
@@ -39,8 +39,8 @@ uint32_t signed_byte(double x) {
     return static_cast<uint8_t>(static_cast<int8_t>(std::lround(std::clamp(x, -1.0, 1.0) * 127)));
 }
 
-/// The octahedral map of a direction: the sphere unfolded to a square.
-uint32_t packed(const glm::vec4& sample) {
+/// Distance in its brick's unit, and the octahedral map of the normal: the sphere unfolded to a square.
+uint32_t packed(const glm::vec4& sample, double unit) {
     Vec3 n(sample);
     const double size = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
     n = size > 0 ? n / size : Vec3(0, 1, 0);
@@ -49,12 +49,13 @@ uint32_t packed(const glm::vec4& sample) {
         n.y = (n.y < 0 ? -1 : 1) * (1 - std::abs(n.x));
         n.x = x;
     }
-    return glm::packHalf1x16(sample.w) | signed_byte(n.x) << 16 | signed_byte(n.y) << 24;
+    const auto distance = static_cast<uint16_t>(static_cast<int16_t>(std::lround(sample.w / unit)));
+    return distance | signed_byte(n.x) << 16 | signed_byte(n.y) << 24;
 }
 
 std::vector<uint32_t> packed(const BrickTree& tree, const std::vector<uint32_t>& table) {
     const size_t count = table.size() + tree.bricks.size() * brick_samples;
-    if (count >= size_t{1} << k::BRICK_LEVEL_SHIFT) {
+    if (count >= size_t{1} << k::BRICK_RANGE_SHIFT) {
         throw InputError("the adaptive field would take " + std::to_string(count >> 18) +
                          " MiB, more than a kernel can address; lower its \"resolution\"");
     }
@@ -62,11 +63,12 @@ std::vector<uint32_t> packed(const BrickTree& tree, const std::vector<uint32_t>&
     words.reserve(count);
     for (const uint32_t b : table) {
         words.push_back(static_cast<uint32_t>(table.size() + size_t{b} * brick_samples) |
+                        static_cast<uint32_t>(tree.bricks[b].range) << k::BRICK_RANGE_SHIFT |
                         static_cast<uint32_t>(tree.bricks[b].level) << k::BRICK_LEVEL_SHIFT);
     }
     for (const Brick& brick : tree.bricks) {
         for (const glm::vec4& sample : brick.samples) {
-            words.push_back(packed(sample));
+            words.push_back(packed(sample, (1 << brick.range) / 32767.0));
         }
     }
     return words;

@@ -11,10 +11,11 @@
 namespace anvil {
 
 /// Adaptively sampled signed distance field (Frisken et al. 2000) of a bounded solid, in the occluder's own
-/// space: an octree of bricks over a box, flattened to a table at its finest level. Wherever the surface is
-/// within two voxels the bricks are of that level, so that contact has one step width everywhere; elsewhere
-/// the interpolation error is kept under adaptive_tolerance(). Where levels meet, the finer brick's samples
-/// are the coarser one's interpolation: the field has no cracks but the rounding of its half floats.
+/// space: an octree of bricks over a box, flattened to a table at its finest level. The interpolation error
+/// is kept under adaptive_tolerance(), or the finest level's where that has more; near the surface this holds
+/// at all points of the finest grid, so that contact has one step width everywhere. Where levels meet, the
+/// finer brick's samples are the coarser one's interpolation: the field has no cracks but the rounding to 16
+/// bits.
 ///
 /// A sample (normal and distance) takes one word of 32 bits and is interpolated by the kernels themselves:
 /// formats that textures filter take 6 to 8 bytes for the same, twice the memory that fields should take;
@@ -36,7 +37,8 @@ struct AdaptiveField {
 /// proportion, so that the steps that the kernels take by the distance stay safe.
 double adaptive_tolerance(double distance);
 
-/// Samples `solid` as bake() would with `resolution` voxels along the longest side of its bounds plus padding.
+/// Samples `solid` as bake() would with `resolution` voxels along the longest side of its bounds plus
+/// padding.
 /// @throws InputError if the solid is unbounded or has no extent; Cancelled.
 AdaptiveField bake_adaptive(const ExactDistance& solid, uint32_t resolution, Progress& progress);
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/packing.hpp>
 
 namespace anvil {
 
@@ -260,8 +259,18 @@ class BrickGrower {
     std::vector<double> errors_; ///< of its bricks; -1: not needed
 };
 
-glm::vec4 rounded_as_stored(const glm::dvec4& value) {
-    return {glm::vec3(value), glm::unpackHalf1x16(glm::packHalf1x16(static_cast<float>(value.w)))};
+void round_as_stored(Brick& brick) {
+    float largest = 0;
+    for (const glm::vec4& sample : brick.samples) {
+        largest = std::max(largest, std::abs(sample.w));
+    }
+    while (largest > static_cast<float>(1 << brick.range)) {
+        ++brick.range;
+    }
+    const double unit = (1 << brick.range) / 32767.0;
+    for (glm::vec4& sample : brick.samples) {
+        sample.w = static_cast<float>(std::round(sample.w / unit) * unit);
+    }
 }
 
 /// What a brick needs to take over values from its coarser neighbours.
@@ -280,6 +289,7 @@ class Stitcher {
                 }
             }
         }
+        round_as_stored(brick);
     }
 
   private:
@@ -303,12 +313,10 @@ class Stitcher {
                 coarsest = neighbours_[i];
             }
         }
-        glm::vec4& sample = brick.samples[sample_index(s.x, s.y, s.z)];
-        glm::dvec4 value(sample);
         if (coarsest != nullptr) {
-            value = coarsest->interpolated(Vec3(brick.origin() + (s << brick.level)));
+            brick.samples[sample_index(s.x, s.y, s.z)] =
+                coarsest->interpolated(Vec3(brick.origin() + (s << brick.level)));
         }
-        sample = rounded_as_stored(value);
     }
 
     static bool touches(const CellIndex& s, const CellIndex& step) {

@@ -26,6 +26,7 @@ struct Brick {
     CellIndex place{0}; ///< in bricks of its level
     int level = 0;
     uint8_t refined = 0;
+    int range = 0; ///< distances are stored in units of 2^range / 32767 voxels
     BrickSamples samples;
 
     /// Of the brick's low corner, in finest cells.
@@ -56,8 +57,8 @@ BrickTree grow_bricks(const ExactDistance& solid, const BrickLayout& layout, Pro
 /// Index into tree.bricks of the brick that covers each finest brick's place, x fastest.
 std::vector<uint32_t> brick_table(const BrickTree& tree);
 
-/// Gives the samples on faces shared with coarser bricks the values that those interpolate there, as half
-/// floats round them; rounds all.
+/// Gives the samples on faces shared with coarser bricks the values that those interpolate there; finds the
+/// ranges, and rounds all distances to what is stored.
 void stitch_levels(BrickTree& tree, const std::vector<uint32_t>& table);
 
 } // namespace anvil

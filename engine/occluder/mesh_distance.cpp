@@ -2,6 +2,7 @@
 
 #include "engine/core/error.h"
 #include "engine/mesh/search_tree.h"
+#include "engine/occluder/surface_sides.h"
 #include "engine/occluder/winding_number.h"
 
 #include <cmath>
@@ -14,7 +15,7 @@ class MeshDistance final : public ExactDistance {
   public:
     explicit MeshDistance(const Mesh& mesh)
         : triangles_(mesh.triangles), positions_(mesh.positions), tree_(mesh.positions, mesh.triangles),
-          winding_(mesh.positions, mesh.triangles) {
+          winding_(mesh.positions, mesh.triangles), sides_(mesh.positions, mesh.triangles, tree_, winding_) {
         for (const Triangle& t : triangles_) {
             for (uint32_t v : t) {
                 bounds_.include(positions_[v]);
@@ -22,23 +23,55 @@ class MeshDistance final : public ExactDistance {
         }
     }
 
-    SignedDistance at(const Vec3& p) const override {
-        const ClosestPoint closest = tree_.closest(p);
-        const double sign = inside(p) ? -1 : 1;
-        const Vec3 arm = p - closest.position;
-        if (closest.distance > 1e-9 * bounds_.diagonal()) {
-            return {sign * closest.distance, sign / closest.distance * arm};
+    SignedDistance at(const Vec3& p) const override { return signed_distance(p, tree_.closest(p)); }
+
+    /// The face closest to one point bounds the search for the next one.
+    void trace(std::span<const Vec3> points, std::span<SignedDistance> found) const override {
+        uint32_t last = no_index;
+        for (size_t i = 0; i < points.size(); ++i) {
+            const ClosestPoint closest = closest_near(points[i], last);
+            last = closest.triangle;
+            found[i] = signed_distance(points[i], closest);
         }
-        return {sign * closest.distance, outward_normal(closest)};
     }
 
     Box bounds() const override { return bounds_; }
 
   private:
-    bool inside(const Vec3& p) const {
-        const bool beyond =
-            glm::any(glm::lessThan(p, bounds_.low)) || glm::any(glm::greaterThan(p, bounds_.high));
-        return !beyond && std::abs(winding_.at(p)) > 0.5;
+    ClosestPoint closest_near(const Vec3& p, uint32_t last) const {
+        if (last != no_index) {
+            const Triangle& t = triangles_[last];
+            const ClosestPoint there =
+                closest_on_triangle(p, positions_[t[0]], positions_[t[1]], positions_[t[2]]);
+            const ClosestPoint closest = tree_.closest(p, there.distance * (1 + 1e-12));
+            if (closest.found()) {
+                return closest;
+            }
+        }
+        return tree_.closest(p);
+    }
+
+    SignedDistance signed_distance(const Vec3& p, const ClosestPoint& closest) const {
+        const Vec3 arm = p - closest.position;
+        if (closest.distance > 1e-9 * bounds_.diagonal()) {
+            const double sign = inside(p, closest) ? -1 : 1;
+            return {sign * closest.distance, sign / closest.distance * arm};
+        }
+        return {inside(p) ? -closest.distance : closest.distance, outward_normal(closest)};
+    }
+
+    bool beyond_bounds(const Vec3& p) const {
+        return glm::any(glm::lessThan(p, bounds_.low)) || glm::any(glm::greaterThan(p, bounds_.high));
+    }
+
+    bool inside(const Vec3& p) const { return !beyond_bounds(p) && std::abs(winding_.at(p)) > 0.5; }
+
+    bool inside(const Vec3& p, const ClosestPoint& closest) const {
+        if (beyond_bounds(p)) {
+            return false;
+        }
+        const std::optional<int> told = sides_.winding(p, closest);
+        return told ? *told != 0 : std::abs(winding_.at(p)) > 0.5;
     }
 
     /// The face's normal, on the side that is not inside.
@@ -57,6 +90,7 @@ class MeshDistance final : public ExactDistance {
     std::vector<Vec3> positions_;
     SearchTree tree_;
     WindingNumber winding_;
+    SurfaceSides sides_;
     Box bounds_;
 };
 

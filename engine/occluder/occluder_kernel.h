@@ -4,7 +4,6 @@
 #include "engine/occluder/distance_volume.h"
 #include "engine/occluder/kernel_types.h"
 
-#include <bit>
 #include <cmath>
 #include <memory>
 
@@ -24,12 +23,6 @@ struct OccluderKernel {
     real4 volume_texel(uint volume, real3 uvw) const { return volumes[volume]->texel(uvw); }
 
     uint brick_word(const ShapeNode& node, uint index) const { return field_words[node.words + index]; }
-
-    /// The half's bits in a float's place; the factor makes up for the exponents' different biases.
-    static real half_value(uint word) {
-        const float size = std::bit_cast<float>((word & 0x7fffU) << 13) * 0x1p112F;
-        return (word & 0x8000U) != 0 ? -size : size;
-    }
 
     static bool shape_is(uint kind, uint wanted) { return kind == wanted; }
 

@@ -35,13 +35,15 @@ const uint MAX_SHAPE_STACK = 8u; // operands that wait at once
 const uint MAX_VOLUMES = 8u;     // densely sampled fields of one edit
 
 // An adaptively sampled field is a run of words: first a table with one word for each brick of the finest
-// level in its box, x fastest: the level << BRICK_LEVEL_SHIFT, plus the word where the samples of the brick
-// that holds this place begin. A brick of level l has BRICK_CELLS cells along each side, each 2^l voxels
-// wide, and samples at their corners, x fastest. A sample is a half float, the distance in voxels, in the low
-// 16 bits, and above it the outward normal's octahedral coordinates, two signed bytes in units of 1 / 127.
+// level in its box, x fastest, about the brick that holds this place: its level << BRICK_LEVEL_SHIFT, the
+// exponent e of its range << BRICK_RANGE_SHIFT, and in the low bits the word where its samples begin. A brick
+// of level l has BRICK_CELLS cells along each side, each 2^l voxels wide, and samples at their corners, x
+// fastest. In a sample the low 16 bits, signed, are the distance in units of 2^e / 32767 voxels; above them
+// are the outward normal's octahedral coordinates, two signed bytes in units of 1 / 127.
 const uint BRICK_CELLS = 4u;
 const uint BRICK_SIDE = 5u; // samples
-const uint BRICK_LEVEL_SHIFT = 28u;
+const uint BRICK_RANGE_SHIFT = 25u;
+const uint BRICK_LEVEL_SHIFT = 29u;
 
 // A leaf or operator of an occluder. Leaf space: axes rows axis_x..z, `origin` and `scale` as seen from the
 // occluder's space. size: sphere (radius), box (half extents), cylinder, capsule, cone (radius, half height),

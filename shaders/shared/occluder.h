@@ -1,8 +1,7 @@
 // Signed distance (< 0 inside) and outward unit normal of occluders, alike in C++ and GLSL.
 // The includer provides the arrays `nodes` and `occluders` and `real4 volume_texel(uint volume, real3 uvw)`:
 // filtered (normal, distance) of a sampled field, uvw in [0, 1] between the outermost voxel centres;
-// `uint brick_word(ShapeNode node, uint index)`: a word of the node's adaptive field, and `real
-// half_value(uint word)`: the half float in a word's low bits.
+// `uint brick_word(ShapeNode node, uint index)`: a word of the node's adaptive field.
 // `bool shape_is(uint kind, uint wanted)`: kind == wanted, where the includer may know that no node is of a
 // kind.
 
@@ -144,7 +143,7 @@ Probe volume_probe(uint volume, real3 p, real3 half_size) {
     return sampled_probe(volume_texel(volume, 0.5 * (c / half_size) + real3(0.5)), p, c);
 }
 
-// A sample of an adaptive field: its normal (not of unit length) and the distance in voxels.
+// A sample of an adaptive field: its normal (not of unit length) and the distance in its brick's unit.
 real4 brick_sample(uint word) {
     real x = real(int(word << 8u) >> 24) / 127.0;
     real y = real(int(word) >> 24) / 127.0;
@@ -152,7 +151,7 @@ real4 brick_sample(uint word) {
     real fold = max(-z, real(0.0));
     x -= x < 0.0 ? -fold : fold;
     y -= y < 0.0 ? -fold : fold;
-    return real4(x, y, z, half_value(word));
+    return real4(x, y, z, real(int(word << 16u) >> 16));
 }
 
 // Samples at the ends of a cell's edge along x, from word `index` on, interpolated at t.
@@ -177,12 +176,13 @@ real4 brick_texel(ShapeNode node, real3 c) {
     real scale = real(1u << (entry >> BRICK_LEVEL_SHIFT));
     real3 within = place / scale - width * floor(brick / scale); // in cells of the brick's own level
     real3 cell = clamp(floor(within), real3(0.0), real3(width - 1.0));
-    uint low = (entry & ((1u << BRICK_LEVEL_SHIFT) - 1u)) + uint(cell.x) +
+    uint low = (entry & ((1u << BRICK_RANGE_SHIFT) - 1u)) + uint(cell.x) +
                BRICK_SIDE * (uint(cell.y) + BRICK_SIDE * uint(cell.z));
     real3 t = within - cell;
     real4 texel = brick_face(node, low, t);
     texel += t.z * (brick_face(node, low + BRICK_SIDE * BRICK_SIDE, t) - texel);
-    texel.w *= node.extra;
+    uint exponent = (entry >> BRICK_RANGE_SHIFT) & ((1u << (BRICK_LEVEL_SHIFT - BRICK_RANGE_SHIFT)) - 1u);
+    texel.w *= node.extra * (real(1u << exponent) / 32767.0);
     return texel;
 }
 

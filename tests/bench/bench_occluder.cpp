@@ -1,5 +1,5 @@
-// Baked distance fields of meshes, dense and adaptive: processor seconds to bake, memory, time per step of the
-// deformation, errors at random points, and how far the results of an edit differ.
+// Baked distance fields of meshes, dense and adaptive: processor seconds to bake, memory, time per step of
+// the deformation, errors at random points, and how far the results of an edit differ.
 //   bench_occluder [--no-dense] [--points N] [--resolution N ...] MESH or SAMPLE:VERTICES ...
 #include "engine/core/log.h"
 #include "engine/core/parallel_for.h"
@@ -60,9 +60,10 @@ Baked baked(const std::shared_ptr<const ExactDistance>& exact, FieldKind kind, u
     result.seconds = seconds() - start;
     result.voxel = model.field ? model.field->voxel : model.volumes.front()->voxel;
     result.error = model.field ? model.field->error : model.volumes.front()->error;
-    result.megabytes = static_cast<double>(model.field ? model.field->bytes()
-                                                       : model.volumes.front()->texels.size() * sizeof(float)) /
-                       1e6;
+    result.megabytes =
+        static_cast<double>(model.field ? model.field->bytes()
+                                        : model.volumes.front()->texels.size() * sizeof(float)) /
+        1e6;
     const double diagonal = exact->bounds().diagonal();
     add_occluder(result.set, model, "tool", {}, {influence, 0.9, {}, {}, 0},
                  {Vec3(0), diagonal, 0.5 * diagonal});
@@ -103,9 +104,9 @@ std::vector<Sample> random_samples(const ExactDistance& exact, size_t count, dou
 struct Errors {
     double rms = 0;
     double worst = 0;
-    size_t beyond = 0;      ///< more than adaptive_tolerance()
-    size_t wrong_sign = 0;  ///< where |distance| > voxel / 4
-    double normal_rms = 0;  ///< radians
+    size_t beyond = 0;     ///< more than adaptive_tolerance()
+    size_t wrong_sign = 0; ///< where |distance| > voxel / 4
+    double normal_rms = 0; ///< length of the difference
 };
 
 Errors errors_of(const Baked& field, const std::vector<Sample>& samples) {
@@ -165,8 +166,8 @@ Pushed pushed(Backend& backend, const OccluderSet& set, const Box& box) {
         const auto start = std::chrono::steady_clock::now();
         session->update(motion);
         session->wait();
-        best = std::min(best,
-                        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        best =
+            std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     }
     Pushed result;
     result.results = session->download();
@@ -212,14 +213,15 @@ void measure(const std::string& name, uint32_t resolution, const Options& option
         const Errors all = errors_of(field, random_samples(*exact, options.points, infinity));
         const Errors band = errors_of(field, random_samples(*exact, options.points / 10, 3 * voxel));
         results.push_back(pushed(*backend, field.set, exact->bounds()));
-        std::printf("  %-8s bake %7.2f s  %7.2f MB  settle %.3f  band rms %.4f worst %.2f sign %.4f %% normal %.3f | "
-                    "all: rms %.3f worst %.2f beyond %.4f %%  normal %.3f | %s %.1f ns\n",
-                    kind == FieldKind::dense ? "dense" : "adaptive", field.seconds, field.megabytes,
-                    field.error / voxel, band.rms, band.worst,
-                    100.0 * static_cast<double>(band.wrong_sign) / static_cast<double>(options.points / 10),
-                    band.normal_rms, all.rms, all.worst,
-                    100.0 * static_cast<double>(all.beyond) / static_cast<double>(options.points), all.normal_rms,
-                    backend->device_name().c_str(), results.back().nanoseconds);
+        std::printf(
+            "  %-8s bake %7.2f s  %7.2f MB  settle %.3f  band rms %.4f worst %.2f sign %.4f %% normal %.3f | "
+            "all: rms %.3f worst %.2f beyond %.4f %%  normal %.3f | %s %.1f ns\n",
+            kind == FieldKind::dense ? "dense" : "adaptive", field.seconds, field.megabytes,
+            field.error / voxel, band.rms, band.worst,
+            100.0 * static_cast<double>(band.wrong_sign) / static_cast<double>(options.points / 10),
+            band.normal_rms, all.rms, all.worst,
+            100.0 * static_cast<double>(all.beyond) / static_cast<double>(options.points), all.normal_rms,
+            backend->device_name().c_str(), results.back().nanoseconds);
     }
     if (results.size() == 2) {
         print_difference(results[0], results[1], voxel);
