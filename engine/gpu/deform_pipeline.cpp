@@ -20,7 +20,7 @@ constexpr size_t few_nodes = 8;
 std::vector<ResourceKind> deform_resources() {
     std::vector<ResourceKind> kinds(9, ResourceKind::storage_buffer);
     kinds.insert(kinds.end(), kernel::f32::MAX_VOLUMES, ResourceKind::volume_texture);
-    kinds.push_back(ResourceKind::storage_buffer);
+    kinds.insert(kinds.end(), 2, ResourceKind::storage_buffer); // poses, words of adaptive fields
     return kinds;
 }
 

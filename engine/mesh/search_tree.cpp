@@ -11,6 +11,7 @@ constexpr int bin_count = 16;
 // Below this depth the halves are equal in number, so that no arrangement of triangles makes the tree deep.
 constexpr int balanced_depth = 48;
 constexpr size_t stack_size = balanced_depth + 40;
+constexpr double sphere_slack = 1 + 1e-12; // what rounding may hide
 
 double dot2(const Vec3& v) {
     return glm::dot(v, v);
@@ -145,10 +146,15 @@ SearchTree::SearchTree(std::span<const Vec3> positions, std::span<const Triangle
     }
     order_.reserve(items.size());
     corners_.reserve(items.size());
+    spheres_.reserve(items.size());
     for (const Item& item : items) {
         const Triangle& t = triangles[item.triangle];
         order_.push_back(item.triangle);
         corners_.push_back({positions[t[0]], positions[t[1]], positions[t[2]]});
+        const double reach2 =
+            std::max({dot2(positions[t[0]] - item.centre), dot2(positions[t[1]] - item.centre),
+                      dot2(positions[t[2]] - item.centre)});
+        spheres_.push_back({item.centre, sphere_slack * std::sqrt(reach2)});
     }
 }
 
@@ -212,6 +218,7 @@ ClosestPoint SearchTree::closest(const Vec3& query, double max_distance) const {
     }
     Candidate nearest_found;
     nearest_found.distance2 = max_distance * max_distance;
+    double nearest_distance = max_distance;
     size_t nearest_slot = 0;
     struct Entry {
         uint32_t node;
@@ -227,12 +234,17 @@ ClosestPoint SearchTree::closest(const Vec3& query, double max_distance) const {
         }
         const Node& node = nodes_[entry.node];
         for (size_t slot = node.first; slot < node.first + node.count; ++slot) {
+            const double reach = sphere_slack * (nearest_distance + spheres_[slot].radius);
+            if (dot2(query - spheres_[slot].centre) > reach * reach) {
+                continue;
+            }
             const Corners& t = corners_[slot];
             const Candidate found = nearest(query - t.a, t.b - t.a, t.c - t.a);
             if (found.distance2 < nearest_found.distance2 ||
                 (found.distance2 == nearest_found.distance2 && order_[slot] < best.triangle)) {
                 nearest_found = found;
                 nearest_slot = slot;
+                nearest_distance = std::sqrt(found.distance2);
                 best.triangle = order_[slot];
             }
         }

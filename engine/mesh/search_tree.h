@@ -24,7 +24,7 @@ struct ClosestPoint {
 ClosestPoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Box tree over triangles: built once, used const, from any number of threads. Holds its own copy of the
-/// corners (72 bytes a triangle). Extents from 1e-70 to 1e70 are safe from under- and overflow.
+/// corners (104 bytes a triangle). Extents from 1e-70 to 1e70 are safe from under- and overflow.
 class SearchTree {
   public:
     /// `triangles` index `positions`, all finite. Building is O(t log t); deterministic.
@@ -71,6 +71,10 @@ class SearchTree {
     struct Corners {
         Vec3 a, b, c;
     };
+    struct Sphere {
+        Vec3 centre;
+        double radius;
+    };
     struct Item {
         Box box;
         Vec3 centre;
@@ -82,6 +86,7 @@ class SearchTree {
 
     std::vector<Node> nodes_;
     std::vector<Corners> corners_; ///< in the order of order_
+    std::vector<Sphere> spheres_;  ///< around each leaf slot's triangle
     std::vector<uint32_t> order_;  ///< triangle of each leaf slot
 };
 

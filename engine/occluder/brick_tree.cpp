@@ -13,7 +13,7 @@ namespace {
 // Voxels around the surface where the finest level is tried before a coarser one is found good enough, so
 // that nothing as small as a voxel slips through between the samples of coarse levels.
 constexpr double surface_reach = 2;
-constexpr size_t bricks_at_once = 512;
+constexpr size_t families_at_once = 128;
 
 int sample_index(int x, int y, int z) {
     return x + brick_side * (y + brick_side * z);
@@ -43,7 +43,7 @@ class BrickSampler {
   public:
     BrickSampler(const ExactDistance& solid, const BrickLayout& layout)
         : solid_(solid), layout_(layout), corners_(winding_path(brick_side)),
-          cells_(winding_path(brick_cells)) {}
+          cells_(winding_path(brick_cells)), family_(winding_path(family_side)) {}
 
     void sample(Brick& brick) {
         points_.clear();
@@ -53,8 +53,38 @@ class BrickSampler {
         trace();
         for (size_t i = 0; i < corners_.size(); ++i) {
             const CellIndex& c = corners_[i];
-            brick.samples[sample_index(c.x, c.y, c.z)] =
-                glm::vec4(found_[i].normal, found_[i].distance / layout_.voxel);
+            brick.samples[sample_index(c.x, c.y, c.z)] = found_sample(i);
+        }
+    }
+
+    /// Bricks that refine octants of one parent, together: they have samples in common, with each other and
+    /// with the parent.
+    void sample_children(const Brick& parent, std::span<Brick> children) {
+        lattice_.resize(family_side * family_side * family_side);
+        open_.assign(lattice_.size(), false);
+        for (const Brick& child : children) {
+            for_samples(parent, child, [&](int at, glm::vec4) { open_[at] = true; });
+        }
+        for (int i = 0; i < brick_samples; ++i) {
+            const int at = family_index(2 * (i % brick_side), 2 * (i / brick_side % brick_side),
+                                        2 * (i / (brick_side * brick_side)));
+            lattice_[at] = parent.samples[i];
+            open_[at] = false;
+        }
+        points_.clear();
+        tested_.clear();
+        for (const CellIndex& c : family_) {
+            if (open_[family_index(c.x, c.y, c.z)]) {
+                tested_.push_back(c);
+                points_.push_back(point(parent, 0.5 * Vec3(c)));
+            }
+        }
+        trace();
+        for (size_t i = 0; i < tested_.size(); ++i) {
+            lattice_[family_index(tested_[i].x, tested_[i].y, tested_[i].z)] = found_sample(i);
+        }
+        for (Brick& child : children) {
+            for_samples(parent, child, [&](int at, glm::vec4& sample) { sample = lattice_[at]; });
         }
     }
 
@@ -109,6 +139,25 @@ class BrickSampler {
         return layout_.point(cells_at(brick, within));
     }
 
+    glm::vec4 found_sample(size_t i) const {
+        return {glm::vec3(found_[i].normal), static_cast<float>(found_[i].distance / layout_.voxel)};
+    }
+
+    /// All of a parent's octants' samples are a lattice of this side.
+    static constexpr int family_side = 2 * brick_cells + 1;
+    static int family_index(int x, int y, int z) { return x + family_side * (y + family_side * z); }
+
+    /// visit(index in the family's lattice, sample) for each sample of a child.
+    template <class AnyBrick, class Visit>
+    static void for_samples(const Brick& parent, AnyBrick& child, const Visit& visit) {
+        const CellIndex low = (child.place - parent.place * 2) * brick_cells;
+        for (int i = 0; i < brick_samples; ++i) {
+            const int at = family_index(low.x + i % brick_side, low.y + i / brick_side % brick_side,
+                                        low.z + i / (brick_side * brick_side));
+            visit(at, child.samples[i]);
+        }
+    }
+
     void trace() {
         found_.resize(points_.size());
         solid_.trace(points_, found_);
@@ -153,6 +202,9 @@ class BrickSampler {
     const BrickLayout& layout_;
     std::vector<CellIndex> corners_;
     std::vector<CellIndex> cells_;
+    std::vector<CellIndex> family_;
+    std::vector<glm::vec4> lattice_;
+    std::vector<bool> open_;
     std::vector<CellIndex> tested_;
     std::vector<Vec3> points_;
     std::vector<SignedDistance> found_;
@@ -212,14 +264,20 @@ class BrickGrower {
         first_ = tree_.bricks.size();
         tree_.bricks.resize(first_ + wanted_.size());
         errors_.assign(wanted_.size(), 0.0);
-        for (size_t begin = 0; begin < wanted_.size(); begin += bricks_at_once) {
+        for (size_t i = 0; i < wanted_.size(); ++i) {
+            tree_.bricks[first_ + i].place = wanted_[i].place;
+            tree_.bricks[first_ + i].level = level;
+        }
+        const std::vector<size_t> families = family_begins();
+        const size_t count = families.size() - 1;
+        for (size_t begin = 0; begin < count; begin += families_at_once) {
             // Each level takes about four times as long as the one before.
-            const double part = static_cast<double>(begin) / static_cast<double>(wanted_.size());
+            const double part = static_cast<double>(begin) / static_cast<double>(count);
             progress_.report("bake", std::pow(0.25, level) * (0.25 + 0.75 * part));
-            parallel_for(std::min(bricks_at_once, wanted_.size() - begin), 1, [&](size_t from, size_t to) {
+            parallel_for(std::min(families_at_once, count - begin), 1, [&](size_t from, size_t to) {
                 BrickSampler sampler(solid_, tree_.layout);
                 for (size_t i = begin + from; i < begin + to; ++i) {
-                    sample(sampler, i, level);
+                    sample_family(sampler, families[i], families[i + 1]);
                 }
             });
         }
@@ -236,18 +294,35 @@ class BrickGrower {
     }
 
   private:
-    void sample(BrickSampler& sampler, size_t i, int level) {
-        Brick& brick = tree_.bricks[first_ + i];
-        brick.place = wanted_[i].place;
-        brick.level = level;
-        sampler.sample(brick);
-        if (level > 0) {
-            brick.refined = sampler.octants_to_refine(brick);
-        } else if (level < tree_.layout.top_level &&
-                   BrickSampler::spared_by(tree_.bricks[wanted_[i].parent], brick)) {
-            errors_[i] = -1;
+    /// Where in wanted_ the children of each parent begin, and the end; roots are alone.
+    std::vector<size_t> family_begins() const {
+        std::vector<size_t> begins;
+        for (size_t i = 0; i < wanted_.size(); ++i) {
+            if (first_ == 0 || i == 0 || wanted_[i].parent != wanted_[i - 1].parent) {
+                begins.push_back(i);
+            }
+        }
+        begins.push_back(wanted_.size());
+        return begins;
+    }
+
+    void sample_family(BrickSampler& sampler, size_t begin, size_t end) {
+        const bool root = first_ == 0;
+        const std::span<Brick> children(&tree_.bricks[first_ + begin], end - begin);
+        const Brick& parent = tree_.bricks[root ? 0 : wanted_[begin].parent];
+        if (root) {
+            sampler.sample(children.front());
         } else {
-            errors_[i] = sampler.surface_error(brick);
+            sampler.sample_children(parent, children);
+        }
+        for (size_t i = 0; i < children.size(); ++i) {
+            Brick& child = children[i];
+            if (child.level > 0) {
+                child.refined = sampler.octants_to_refine(child);
+            } else {
+                const bool spared = !root && BrickSampler::spared_by(parent, child);
+                errors_[begin + i] = spared ? -1 : sampler.surface_error(child);
+            }
         }
     }
 

@@ -2,6 +2,7 @@
 
 #include "engine/core/error.h"
 #include "engine/mesh/search_tree.h"
+#include "engine/occluder/solid_warnings.h"
 #include "engine/occluder/surface_sides.h"
 #include "engine/occluder/winding_number.h"
 
@@ -36,6 +37,8 @@ class MeshDistance final : public ExactDistance {
     }
 
     Box bounds() const override { return bounds_; }
+
+    size_t crossing_triangles() const { return sides_.crossing_triangles(); }
 
   private:
     ClosestPoint closest_near(const Vec3& p, uint32_t last) const {
@@ -96,11 +99,15 @@ class MeshDistance final : public ExactDistance {
 
 } // namespace
 
-std::shared_ptr<const ExactDistance> mesh_distance(const Mesh& mesh) {
+std::shared_ptr<const ExactDistance> mesh_distance(const Mesh& mesh, Log* log) {
     if (mesh.triangles.empty()) {
         throw InputError("the mesh has no triangle, so there is no solid to be an occluder");
     }
-    return std::make_shared<MeshDistance>(mesh);
+    auto distance = std::make_shared<MeshDistance>(mesh);
+    if (log != nullptr) {
+        warn_about_solid(mesh, distance->crossing_triangles(), *log);
+    }
+    return distance;
 }
 
 } // namespace anvil

@@ -109,9 +109,9 @@ OccluderModel build_model(const OccluderShape& shape, const Field& field, Progre
     if (has_formula(shape)) {
         model.nodes = shape_nodes(shape);
     }
-    model.exact = field.kind == FieldKind::dense
-                      ? true_distance(shape, source, static_cast<int>(field.resolution))
-                      : solid_distance(shape, source);
+    model.exact = field.kind == FieldKind::exact
+                      ? solid_distance(shape, source)
+                      : true_distance(shape, source, static_cast<int>(field.resolution));
     model.bounds = model.exact->bounds();
     if (model.bounds.empty()) {
         throw InputError(

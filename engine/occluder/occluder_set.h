@@ -33,8 +33,8 @@ struct OccluderSet {
     std::vector<std::shared_ptr<const ExactDistance>> exact;
     std::vector<double> sizes; ///< diagonal of the occluder's bounds, of the mesh's if it is unbounded
     bool paper = false;        ///< all act by the paper's literal influence
-    /// Poses by ascending time of the occluders that move; empty or shorter where they stand still. `occluders`
-    /// holds the poses at the start. See occluder_motion.h.
+    /// Poses by ascending time of the occluders that move; empty or shorter where they stand still.
+    /// `occluders` holds the poses at the start. See occluder_motion.h.
     std::vector<std::vector<TimedPose>> motions;
 
     bool empty() const { return occluders.empty(); }

@@ -10,7 +10,9 @@ namespace {
 
 using Corners = std::array<Vec3, 3>;
 
-/// A triangle with its normal (twice the area long), and what rounding may make of distances along it.
+constexpr double rounding = 1e-13; // of products of lengths, relative
+
+/// A triangle with its normal, twice the area long.
 struct Face {
     Corners at;
     Vec3 normal;
@@ -49,13 +51,13 @@ Crossing segment_crossing(const Vec3& p, const Vec3& q, const Face& face, double
 }
 
 /// Whether one of a's sides, in their common plane, has all of b beyond it.
-bool separated_in_plane(const Face& a, const Face& b, double tolerance) {
+bool separated_in_plane(const Face& a, const Face& b, double size) {
+    const double tolerance = rounding * size * size * size * size;
     for (int i = 0; i < 3; ++i) {
         const Vec3 inward = glm::cross(a.normal, a.at[(i + 1) % 3] - a.at[i]);
-        const double size = glm::length(a.normal);
         bool beyond = true;
         for (const Vec3& corner : b.at) {
-            beyond = beyond && glm::dot(inward, corner - a.at[i]) <= tolerance * size;
+            beyond = beyond && glm::dot(inward, corner - a.at[i]) <= tolerance;
         }
         if (beyond) {
             return true;
@@ -86,14 +88,13 @@ Crossing edges_crossing(const Face& a, const std::array<bool, 3>& common, const 
     return found;
 }
 
-double tolerance_of(const Face& a, const Face& b) {
+double common_size(const Face& a, const Face& b) {
     Box box;
     for (int i = 0; i < 3; ++i) {
         box.include(a.at[i]);
         box.include(b.at[i]);
     }
-    const double size = box.diagonal();
-    return 1e-13 * size * size * size;
+    return box.diagonal();
 }
 
 Crossing crossing(const Face& a, const Triangle& s, const Face& b, const Triangle& t) {
@@ -108,9 +109,10 @@ Crossing crossing(const Face& a, const Triangle& s, const Face& b, const Triangl
             }
         }
     }
-    const double tolerance = tolerance_of(a, b);
+    const double size = common_size(a, b);
+    const double tolerance = rounding * size * size * size;
     if (in_plane(a, b, tolerance)) {
-        const bool apart = separated_in_plane(a, b, tolerance) || separated_in_plane(b, a, tolerance);
+        const bool apart = separated_in_plane(a, b, size) || separated_in_plane(b, a, size);
         return apart ? Crossing::none : Crossing::unsure;
     }
     if (count >= 2) {

@@ -81,18 +81,7 @@ class BooleanDistance final : public ExactDistance {
     std::vector<std::shared_ptr<const ExactDistance>> parts_;
 };
 
-/// The surface that a shape's file holds; nothing if the shape is none of a file.
-std::optional<Mesh> read_solid(const OccluderShape& shape, const SolidSource& source) {
-    Log log;
-    std::optional<Mesh> surface;
-    std::string file;
-    if (const auto* mesh = std::get_if<MeshShape>(&shape.solid)) {
-        file = "occluder mesh " + mesh->file;
-        surface = read_mesh(source.folder / mesh->file, log);
-    } else if (const auto* vdb = std::get_if<VdbShape>(&shape.solid)) {
-        file = "occluder " + vdb->file;
-        surface = read_level_set(source.folder / vdb->file, vdb->grid, log);
-    }
+void pass_on(const Log& log, const std::string& file, const SolidSource& source) {
     if (source.log != nullptr) {
         for (const std::string& warning : log.warnings) {
             std::string message = file;
@@ -100,6 +89,23 @@ std::optional<Mesh> read_solid(const OccluderShape& shape, const SolidSource& so
             message += warning;
             source.log->warn(message);
         }
+    }
+}
+
+std::string described(const MeshShape& mesh) {
+    return "occluder mesh " + mesh.file;
+}
+
+/// The surface that a shape's file holds; nothing if the shape is none of a file.
+std::optional<Mesh> read_solid(const OccluderShape& shape, const SolidSource& source) {
+    Log log;
+    std::optional<Mesh> surface;
+    if (const auto* mesh = std::get_if<MeshShape>(&shape.solid)) {
+        surface = read_mesh(source.folder / mesh->file, log);
+        pass_on(log, described(*mesh), source);
+    } else if (const auto* vdb = std::get_if<VdbShape>(&shape.solid)) {
+        surface = read_level_set(source.folder / vdb->file, vdb->grid, log);
+        pass_on(log, "occluder " + vdb->file, source);
     }
     return surface;
 }
@@ -116,7 +122,12 @@ std::shared_ptr<const ExactDistance> solid_distance(const OccluderShape& shape, 
         return formula_distance(shape_nodes(shape));
     }
     if (const std::optional<Mesh> surface = read_solid(shape, source)) {
-        return mesh_distance(*surface);
+        Log log;
+        auto distance = mesh_distance(*surface, &log);
+        if (const auto* mesh = std::get_if<MeshShape>(&shape.solid)) {
+            pass_on(log, described(*mesh), source);
+        }
+        return distance;
     }
     const auto& csg = std::get<CsgShape>(shape.solid);
     std::vector<std::shared_ptr<const ExactDistance>> parts;
