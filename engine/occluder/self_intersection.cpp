@@ -31,10 +31,28 @@ int side(double volume, double tolerance) {
     return volume > tolerance ? 1 : volume < -tolerance ? -1 : 0;
 }
 
-Crossing segment_crossing(const Vec3& p, const Vec3& q, const Face& face, double tolerance) {
+/// Of a segment in the face's plane: whether a side of the face, or the segment's own line, parts the two.
+bool separated_in_plane(const Vec3& p, const Vec3& q, const Face& face, double size) {
+    const double tolerance = rounding * size * size * size * size;
+    const Vec3 across = glm::cross(face.normal, q - p);
+    double least = infinity;
+    double most = -infinity;
+    for (int i = 0; i < 3; ++i) {
+        const Vec3 inward = glm::cross(face.normal, face.at[(i + 1) % 3] - face.at[i]);
+        if (glm::dot(inward, p - face.at[i]) <= tolerance && glm::dot(inward, q - face.at[i]) <= tolerance) {
+            return true;
+        }
+        least = std::min(least, glm::dot(across, face.at[i] - p));
+        most = std::max(most, glm::dot(across, face.at[i] - p));
+    }
+    return least >= -tolerance || most <= tolerance;
+}
+
+Crossing segment_crossing(const Vec3& p, const Vec3& q, const Face& face, double size) {
+    const double tolerance = rounding * size * size * size;
     const int at_p = side(glm::dot(face.normal, p - face.at[0]), tolerance);
     const int at_q = side(glm::dot(face.normal, q - face.at[0]), tolerance);
-    if (at_p * at_q > 0) {
+    if (at_p * at_q > 0 || (at_p == 0 && at_q == 0 && separated_in_plane(p, q, face, size))) {
         return Crossing::none;
     }
     int signs[3];
@@ -78,11 +96,11 @@ Crossing worse(Crossing a, Crossing b) {
 }
 
 /// Edges i of each triangle (from corner i to i + 1) that have no common corner with the other.
-Crossing edges_crossing(const Face& a, const std::array<bool, 3>& common, const Face& b, double tolerance) {
+Crossing edges_crossing(const Face& a, const std::array<bool, 3>& common, const Face& b, double size) {
     Crossing found = Crossing::none;
     for (int i = 0; i < 3; ++i) {
         if (!common[i] && !common[(i + 1) % 3]) {
-            found = worse(found, segment_crossing(a.at[i], a.at[(i + 1) % 3], b, tolerance));
+            found = worse(found, segment_crossing(a.at[i], a.at[(i + 1) % 3], b, size));
         }
     }
     return found;
@@ -118,7 +136,7 @@ Crossing crossing(const Face& a, const Triangle& s, const Face& b, const Triangl
     if (count >= 2) {
         return Crossing::none;
     }
-    return worse(edges_crossing(a, common_a, b, tolerance), edges_crossing(b, common_b, a, tolerance));
+    return worse(edges_crossing(a, common_a, b, size), edges_crossing(b, common_b, a, size));
 }
 
 void mark(Crossing& flag, Crossing found) {
