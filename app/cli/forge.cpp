@@ -159,7 +159,9 @@ void run_forge(const ForgeArguments& arguments, CommandContext& context) {
     Mesh mesh = read_mesh(mesh_file, context.log);
     const double load_seconds = seconds_since(load_start);
     const ChosenBackend chosen = choose_backend(arguments.device, context.log);
-    ForgeResult result = forge(mesh, recipe, *chosen.backend, context.log, context.progress);
+    const std::optional<FileCache> cache = user_cache();
+    ForgeResult result =
+        forge(mesh, recipe, *chosen.backend, context.log, context.progress, cache ? &*cache : nullptr);
     result.report.seconds.load = load_seconds;
 
     Mesh refined = result.refined ? std::move(*result.refined) : Mesh();

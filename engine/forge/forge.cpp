@@ -39,8 +39,10 @@ class StageTimer {
 
 class Forger {
   public:
-    Forger(const Mesh& mesh, const Recipe& recipe, Backend& backend, Log& log, Progress& progress)
-        : file_(mesh), history_(mesh), recipe_(recipe), backend_(backend), log_(log), progress_(progress) {
+    Forger(const Mesh& mesh, const Recipe& recipe, Backend& backend, Log& log, Progress& progress,
+           const FileCache* cache)
+        : file_(mesh), history_(mesh), recipe_(recipe), backend_(backend), log_(log), progress_(progress),
+          cache_(cache) {
         result_.positions = file_.positions;
         result_.moved.assign(mesh.vertex_count(), false);
         result_.weights.assign(mesh.vertex_count(), 0.0F);
@@ -85,7 +87,7 @@ class Forger {
             const Occluder& occluder = recipe_.occluders[i];
             try {
                 models_.emplace(occluder.name, build_model(occluder.shape, field_of(occluder), progress_,
-                                                           {recipe_folder(recipe_), &log_}));
+                                                           {recipe_folder(recipe_), &log_}, cache_));
             } catch (const InputError& error) {
                 throw InputError("occluders[" + std::to_string(i) + "] \"" + occluder.name +
                                  "\": " + error.what());
@@ -478,6 +480,7 @@ class Forger {
     Backend& backend_;
     Log& log_;
     Progress& progress_;
+    const FileCache* cache_;
     std::map<std::string, OccluderModel> models_;
     Vec3 origin_{0};
     double diagonal_ = 0;
@@ -488,8 +491,9 @@ class Forger {
 
 } // namespace
 
-ForgeResult forge(const Mesh& mesh, const Recipe& recipe, Backend& backend, Log& log, Progress& progress) {
-    return Forger(mesh, recipe, backend, log, progress).run();
+ForgeResult forge(const Mesh& mesh, const Recipe& recipe, Backend& backend, Log& log, Progress& progress,
+                  const FileCache* cache) {
+    return Forger(mesh, recipe, backend, log, progress, cache).run();
 }
 
 } // namespace anvil

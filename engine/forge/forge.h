@@ -1,6 +1,7 @@
 // The whole path of an edit record: mesh and recipe in, deformed mesh and report out.
 #pragma once
 
+#include "engine/core/file_cache.h"
 #include "engine/core/log.h"
 #include "engine/core/progress.h"
 #include "engine/deform/backend.h"
@@ -30,10 +31,12 @@ struct ForgeResult {
 };
 
 /// Applies the recipe's edits in order to the mesh, each evaluated on what the one before left; the recipe's
-/// mesh path is not read. Warnings go to the log and into the report.
+/// mesh path is not read. Baked fields are kept in `cache`, if there is one. Warnings go to the log and into
+/// the report.
 /// @throws InputError naming the place in the recipe (unreachable targets, indices out of range, unbounded
 /// bakes),
 ///         DeviceError, Cancelled.
-ForgeResult forge(const Mesh& mesh, const Recipe& recipe, Backend& backend, Log& log, Progress& progress);
+ForgeResult forge(const Mesh& mesh, const Recipe& recipe, Backend& backend, Log& log, Progress& progress,
+                  const FileCache* cache = nullptr);
 
 } // namespace anvil

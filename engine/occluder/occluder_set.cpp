@@ -104,7 +104,7 @@ SignedDistance in_world(const k::Occluder& occluder, const ExactDistance& exact,
 } // namespace
 
 OccluderModel build_model(const OccluderShape& shape, const Field& field, Progress& progress,
-                          const SolidSource& source) {
+                          const SolidSource& source, const FileCache* cache) {
     OccluderModel model;
     if (has_formula(shape)) {
         model.nodes = shape_nodes(shape);
@@ -120,17 +120,19 @@ OccluderModel build_model(const OccluderShape& shape, const Field& field, Progre
     if (field.kind == FieldKind::exact) {
         return model;
     }
-    return sampled_model(model.exact, field, progress);
+    return sampled_model(model.exact, field, progress, bake_cache(cache, shape, field, source));
 }
 
 OccluderModel sampled_model(std::shared_ptr<const ExactDistance> solid, const Field& field,
-                            Progress& progress) {
+                            Progress& progress, const BakeCache& cache) {
     OccluderModel model;
     if (field.kind == FieldKind::dense) {
-        model.volumes.push_back(std::make_shared<DistanceVolume>(bake(*solid, field.resolution, progress)));
+        model.volumes.push_back(std::make_shared<DistanceVolume>(
+            cached<DistanceVolume>(cache, [&] { return bake(*solid, field.resolution, progress); })));
         model.nodes = {sampled_node(k::SHAPE_VOLUME, *model.volumes.front())};
     } else {
-        model.field = std::make_shared<AdaptiveField>(bake_adaptive(*solid, field.resolution, progress));
+        model.field = std::make_shared<AdaptiveField>(
+            cached<AdaptiveField>(cache, [&] { return bake_adaptive(*solid, field.resolution, progress); }));
         model.nodes = {sampled_node(k::SHAPE_BRICKS, *model.field)};
     }
     model.bounds = solid->bounds();

@@ -6,6 +6,7 @@
 #include "engine/occluder/adaptive_field.h"
 #include "engine/occluder/distance_volume.h"
 #include "engine/occluder/exact_distance.h"
+#include "engine/occluder/field_cache.h"
 #include "engine/occluder/kernel_types.h"
 #include "engine/occluder/shape_nodes.h"
 #include "engine/occluder/solid.h"
@@ -52,16 +53,17 @@ struct OccluderModel {
     Box bounds; ///< in the occluder's space; infinite for unbounded shapes
 };
 
-/// With an exact field, a shape without a formula has no nodes: good for exact distances alone.
+/// What is baked comes from the cache where it has it. With an exact field, a shape without a formula has no
+/// nodes: good for exact distances alone.
 /// @throws InputError if a baked shape is unbounded, a shape encloses nothing (told by its bounds, when baked
 /// by its surface too), the Boolean tree is too deep for the kernels, or a mesh file cannot be read.
 OccluderModel build_model(const OccluderShape& shape, const Field& field, Progress& progress,
-                          const SolidSource& source = {});
+                          const SolidSource& source = {}, const FileCache* cache = nullptr);
 
 /// A model baked from any bounded solid with a true distance; `field` is dense or adaptive.
 /// @throws InputError if the solid is unbounded or has no extent; Cancelled.
 OccluderModel sampled_model(std::shared_ptr<const ExactDistance> solid, const Field& field,
-                            Progress& progress);
+                            Progress& progress, const BakeCache& cache = {});
 
 /// What the occluders' defaults refer to.
 struct OccluderScale {

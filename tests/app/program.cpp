@@ -81,6 +81,7 @@ ProgramRun run_anvil(const std::vector<std::string>& arguments, const RunLimits&
     std::vector<std::string> command{ANVIL_PROGRAM};
     command.insert(command.end(), arguments.begin(), arguments.end());
     std::vector<std::string> environment = limits.environment;
+    environment.emplace_back("ANVIL_CACHE=off"); // tests leave nothing in the user's folders
     for (char** entry = environ; *entry != nullptr; ++entry) {
         environment.emplace_back(*entry);
     }

@@ -107,3 +107,29 @@ TEST_CASE("A level set from a file stops a surface as the sphere that it holds d
     }
     CHECK(inside == 0);
 }
+
+TEST_CASE("A field that forge has baked is kept in the cache folder, and changes nothing", "[app][bake]") {
+    const ForgeFolder forge;
+    forge.write("push.json",
+                recipe_text(R"([{"kind": "translate", "radius": 1,
+        "handles": [{"at": {"nearest": [0, 0, 1]}, "by": [0, 0, -0.9]}]}])",
+                            R"([{"name": "tool", "shape": {"torus": {"major": 0.4, "minor": 0.2}},
+            "field": {"kind": "adaptive", "resolution": 32}}])"));
+    RunLimits limits;
+    limits.environment = {"ANVIL_CACHE=" + forge.path("cache")};
+    const auto run = [&](const std::string& output) {
+        const ProgramRun done = run_anvil(
+            {"forge", forge.path("push.json"), "--device", "cpu", "-o", forge.path(output)}, limits);
+        INFO(done.err);
+        REQUIRE(done.status == 0);
+        return content_of(forge.path(output));
+    };
+    const std::string fresh = run("fresh.ply");
+    CHECK(std::distance(std::filesystem::directory_iterator(forge.path("cache")),
+                        std::filesystem::directory_iterator()) == 1);
+    CHECK(run("again.ply") == fresh);
+    for (const auto& entry : std::filesystem::directory_iterator(forge.path("cache"))) {
+        std::ofstream(entry.path()) << "damaged";
+    }
+    CHECK(run("mended.ply") == fresh);
+}
