@@ -15,7 +15,7 @@ std::string refined_pull() {
 
 } // namespace
 
-TEST_CASE("--parents and --delta say where new vertices come from and what the file's own do",
+TEST_CASE("forge --parents and --delta say where new vertices come from and what the file's own do",
           "[app][forge]") {
     const ForgeFolder folder;
     folder.write("recipe.json", recipe_text(refined_pull()));
@@ -60,7 +60,7 @@ TEST_CASE("--parents and --delta say where new vertices come from and what the f
     }
 }
 
-TEST_CASE("--dry-run writes no mesh and says what refinement would add", "[app][forge]") {
+TEST_CASE("forge --dry-run writes no mesh and says what refinement would add", "[app][forge]") {
     const ForgeFolder folder;
     folder.write("recipe.json", recipe_text(refined_pull()));
     const ProgramRun run = folder.forge({"recipe.json", "--device", "cpu", "-o", "out.ply", "--dry-run"});
