@@ -47,9 +47,9 @@ const uint BRICK_LEVEL_SHIFT = 29u;
 
 // A leaf or operator of an occluder. Leaf space: axes rows axis_x..z, `origin` and `scale` as seen from the
 // occluder's space. size: sphere (radius), box (half extents), cylinder, capsule, cone (radius, half height),
-// torus (major, minor), plane (unit normal), volume and bricks (half extents of the box of outermost samples).
-// extra: box rounding, plane offset, voxel width. volume: which one of its kind. words: where the words of an
-// adaptive field begin among those of all.
+// torus (major, minor), plane (unit normal), volume and bricks (half extents of the box of outermost
+// samples). extra: box rounding, plane offset, voxel width. volume: which one of its kind. words: where the
+// words of an adaptive field begin among those of all.
 struct ShapeNode {
     uint kind;
     uint volume;

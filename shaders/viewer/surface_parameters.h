@@ -6,7 +6,8 @@ struct SurfaceParameters {
     mat4 projection;
     float opacity;
     float orthographic;    // 1: parallel view, 0: eye at the origin of view space
-    float contour_spacing; // > 0: the tint is a length, coloured up to contour_end with a line at every multiple
+    float contour_spacing; // > 0: the tint is a length, coloured up to contour_end with a line at every
+                           // multiple
     float contour_end;
 };
 

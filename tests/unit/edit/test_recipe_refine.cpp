@@ -16,8 +16,8 @@ Refine refine_of(const std::string& text) {
 
 TEST_CASE("refine takes a criterion, its tolerance and limits, and is written as it is read") {
     CHECK(refine_of("{}") == Refine{});
-    const Refine shape =
-        refine_of(R"({"criterion": "shape", "tolerance": 0.01, "min_edge": 0.5, "max_vertices": 70, "flip": true})");
+    const Refine shape = refine_of(
+        R"({"criterion": "shape", "tolerance": 0.01, "min_edge": 0.5, "max_vertices": 70, "flip": true})");
     CHECK(shape.flip);
     CHECK(shape.shape_tolerance == 0.01);
     CHECK(shape.min_edge == 0.5);

@@ -81,8 +81,8 @@ TEST_CASE("A baked level set is one to OpenVDB: its class, its band in world uni
     for (auto value = grid->cbeginValueOn(); value; ++value) {
         const openvdb::Vec3d p = grid->indexToWorld(value.getCoord());
         const double truth = glm::length(Vec3(p.x(), p.y(), p.z()) - pose.translate) - 1;
-        wrong +=
-            !(std::abs(*value - truth) <= 1e-6) || std::abs(truth) > (3 + 1e-9) * voxel; // float of numbers near 1
+        wrong += !(std::abs(*value - truth) <= 1e-6) ||
+                 std::abs(truth) > (3 + 1e-9) * voxel; // float of numbers near 1
     }
     CHECK(wrong == 0);
     // A band of 6 voxels around a sphere of radius 20 has 4 pi (20^2 + 3^2 / 3) 6 of them.
