@@ -219,8 +219,10 @@ struct Wanted {
 
 std::vector<Wanted> wanted_roots(const BrickLayout& layout) {
     const CellIndex count = layout.grid >> layout.top_level;
+    const int bricks = count.x * count.y * count.z;
     std::vector<Wanted> wanted;
-    for (int i = 0; i < count.x * count.y * count.z; ++i) {
+    wanted.reserve(static_cast<size_t>(bricks));
+    for (int i = 0; i < bricks; ++i) {
         wanted.push_back({{i % count.x, i / count.x % count.y, i / (count.x * count.y)}});
     }
     return wanted;
