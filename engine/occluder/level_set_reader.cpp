@@ -17,6 +17,8 @@ namespace fs = std::filesystem;
 openvdb::GridPtrVec read_grids(const fs::path& file) {
     openvdb::initialize();
     std::istringstream bytes(read_file(file), std::ios::binary);
+    // A short read is to end it there: OpenVDB would take what it did not read for a size.
+    bytes.exceptions(std::ios::failbit | std::ios::badbit);
     try {
         openvdb::io::Stream stream(bytes, /*delayLoad=*/false);
         return *stream.getGrids();
