@@ -49,6 +49,13 @@ void append(std::string& bytes, const std::vector<Value>& values) {
     std::memcpy(bytes.data() + end, values.data(), values.size() * sizeof(Value));
 }
 
+template <typename... Values>
+std::string joined(const Values&... values) {
+    std::string bytes;
+    (append(bytes, values), ...);
+    return bytes;
+}
+
 template <typename Value>
 bool take(std::string_view& bytes, Value& value) {
     static_assert(std::is_trivially_copyable_v<Value>);
@@ -84,25 +91,11 @@ BakeCache bake_cache(const FileCache* files, const OccluderShape& shape, const F
 }
 
 std::string packed(const DistanceVolume& volume) {
-    std::string bytes;
-    append(bytes, volume.size);
-    append(bytes, volume.centre);
-    append(bytes, volume.half_size);
-    append(bytes, volume.voxel);
-    append(bytes, volume.error);
-    append(bytes, volume.texels);
-    return bytes;
+    return joined(volume.size, volume.centre, volume.half_size, volume.voxel, volume.error, volume.texels);
 }
 
 std::string packed(const AdaptiveField& field) {
-    std::string bytes;
-    append(bytes, field.grid);
-    append(bytes, field.centre);
-    append(bytes, field.half_size);
-    append(bytes, field.voxel);
-    append(bytes, field.error);
-    append(bytes, field.words);
-    return bytes;
+    return joined(field.grid, field.centre, field.half_size, field.voxel, field.error, field.words);
 }
 
 bool unpack(std::string_view bytes, DistanceVolume& sampled) {
