@@ -2,19 +2,21 @@
 
 #include "engine/core/error.h"
 #include "engine/core/number_text.h"
+#include "engine/forge/contact_lists.h"
 #include "engine/forge/dilation.h"
+#include "engine/forge/edit_input.h"
 #include "engine/forge/edit_motion.h"
+#include "engine/forge/edit_occluders.h"
 #include "engine/forge/edit_region.h"
 #include "engine/forge/refine_edit.h"
 #include "engine/forge/surface_state.h"
+#include "engine/forge/trial_run.h"
 #include "engine/forge/volume.h"
-#include "engine/occluder/occluder_motion.h"
 #include "engine/refine/point_vertices.h"
 #include "engine/refine/space_criterion.h"
 
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <optional>
 
 namespace anvil {
@@ -58,7 +60,7 @@ class Forger {
             volume_ = enclosed_volume(mesh(), result_.positions);
         }
         try {
-            build_models();
+            build_occluders();
             for (size_t i = 0; i < recipe_.edits.size(); ++i) {
                 progress_.report("forge", static_cast<double>(i) / static_cast<double>(recipe_.edits.size()));
                 apply(recipe_.edits[i], "edits[" + std::to_string(i) + "]");
@@ -81,40 +83,9 @@ class Forger {
 
     StageSeconds& seconds() { return result_.report.seconds; }
 
-    void build_models() {
+    void build_occluders() {
         const StageTimer timer(seconds().bake);
-        for (size_t i = 0; i < recipe_.occluders.size(); ++i) {
-            const Occluder& occluder = recipe_.occluders[i];
-            try {
-                models_.emplace(occluder.name, build_model(occluder.shape, field_of(occluder), progress_,
-                                                           {recipe_folder(recipe_), &log_}, cache_));
-            } catch (const InputError& error) {
-                throw InputError("occluders[" + std::to_string(i) + "] \"" + occluder.name +
-                                 "\": " + error.what());
-            }
-        }
-    }
-
-    OccluderSet occluders(const Edit& edit, double radius, const std::string& place) const {
-        OccluderSet set;
-        try {
-            for (const OccluderUse& use : occluders_of(recipe_, edit)) {
-                add_occluder(set, models_.at(use.name), use.name, *use.transform, *use.influence,
-                             {origin_, diagonal_, radius});
-                set_motion(set, local_motion(use, edit.amount));
-            }
-        } catch (const InputError& error) {
-            throw InputError(place + ": " + error.what());
-        }
-        return set;
-    }
-
-    std::vector<TimedPose> local_motion(const OccluderUse& use, double amount) const {
-        std::vector<TimedPose> poses = first_part(timed_poses(use), amount);
-        for (TimedPose& pose : poses) {
-            pose.place.origin -= origin_;
-        }
-        return poses;
+        occluders_.emplace(recipe_, log_, progress_, cache_);
     }
 
     void apply(const Edit& edit, const std::string& place) {
@@ -135,9 +106,7 @@ class Forger {
         const auto results = edit.dilation && !input.occluders.empty()
                                  ? dilated(edit, region, input, motion.motion, place, report, free_volume)
                                  : deform(input, motion.motion);
-        move_vertices(region, input, results, report);
-        report_triangles(region, input, report);
-        report_contacts(edit, region, report);
+        move_vertices(edit, region, input, results, report);
         report_volume(report, free_volume);
         note_region(region, input);
         result_.report.edits.push_back(std::move(report));
@@ -190,49 +159,13 @@ class Forger {
         Log unheard; // the edit itself says it again
         const DeformMotion motion =
             find_motion(edit, region, result_.positions, origin_, place, input.occluders, unheard).motion;
-        MovePoints move = [this, input, motion, radii = region.radii](
+        MovePoints move = [run = TrialRun(backend_, std::move(input), motion, region.radii, origin_)](
                               std::span<const Vec3> places, const std::vector<double>& distances) mutable {
-            return moved_points(input, motion, radii, places, distances);
+            return run.moved(places, distances);
         };
         return settings.criterion == RefineCriterion::space
                    ? make_space_criterion(std::move(move))
                    : make_both_criteria(settings.shape_tolerance, std::move(move), settings.space_tolerance);
-    }
-
-    /// Where the edit takes any points of the surface; `input` serves all calls.
-    std::vector<Vec3> moved_points(DeformInput& input, const DeformMotion& motion,
-                                   const std::vector<double>& radii, std::span<const Vec3> places,
-                                   const std::vector<double>& distances) {
-        const size_t n = places.size();
-        input.points.resize(n);
-        std::transform(places.begin(), places.end(), input.points.begin(),
-                       [this](const Vec3& p) { return p - origin_; });
-        input.fields.resize(distances.size());
-        for (size_t i = 0; i < distances.size(); ++i) {
-            input.fields[i] = distances[i] / radii[i / n];
-        }
-        find_start_distances(input);
-        const auto session = backend_.prepare(input);
-        session->update(motion);
-        const std::vector<PointResult> results = session->download();
-        std::vector<Vec3> ends(n);
-        std::vector<bool> inside(n);
-        for (size_t i = 0; i < n; ++i) {
-            ends[i] = input.points[i] + results[i].displacement;
-            inside[i] = (results[i].flags & kernel::f64::VERTEX_STARTED_INSIDE) != 0;
-        }
-        if (!input.occluders.empty() && !input.occluders.paper) {
-            finish_contact(input.occluders, input.points, inside, ends);
-        }
-        for (size_t i = 0; i < n; ++i) {
-            bool reached = false;
-            for (size_t f = i; f < input.fields.size(); f += n) {
-                reached = reached || input.fields[f] <= 1;
-            }
-            // What lies outside of the region stays, even where an occluder moves.
-            ends[i] = reached ? ends[i] + origin_ : places[i];
-        }
-        return ends;
     }
 
     /// The mesh from here on.
@@ -262,29 +195,9 @@ class Forger {
 
     DeformInput prepare_input(const Edit& edit, const EditRegion& region, const std::string& place) {
         const StageTimer timer(seconds().solve);
-        DeformInput input;
-        input.handle_count = region.shapes.size();
-        input.fields = region.fields;
-        input.points.reserve(region.vertices.size());
-        for (uint32_t v : region.vertices) {
-            input.points.push_back(result_.positions[v] - origin_);
-        }
-        for (const ShapeFunction& shape : region.shapes) {
-            input.shapes.push_back({static_cast<uint32_t>(input.segments.size()),
-                                    static_cast<uint32_t>(shape.segments().size())});
-            for (const auto& s : shape.segments()) {
-                input.segments.push_back({s.begin, s.c0, s.c1, s.c2, s.c3});
-            }
-        }
-        input.occluders = occluders(edit, largest_radius(region), place);
-        find_start_distances(input);
-        return input;
-    }
-
-    /// How far the edit reaches; a hammer on a whole mesh: half of it.
-    double largest_radius(const EditRegion& region) const {
-        return region.radii.empty() ? 0.5 * diagonal_
-                                    : *std::max_element(region.radii.begin(), region.radii.end());
+        return deform_input(
+            region, result_.positions, origin_,
+            occluders_->set_for(edit, {origin_, diagonal_, largest_radius(region, diagonal_)}, place));
     }
 
     EditMotion solve(const Edit& edit, const EditRegion& region, const DeformInput& input,
@@ -318,7 +231,7 @@ class Forger {
                                      const DeformMotion& motion, const std::string& place, EditReport& report,
                                      std::optional<double>& free_volume) {
         const StageTimer timer(seconds().deform);
-        const double width = edit.dilation->width.value_or(0.5 * largest_radius(region));
+        const double width = edit.dilation->width.value_or(0.5 * largest_radius(region, diagonal_));
         try {
             DilationResult result = dilate({mesh(), result_.positions, origin_, region, input, motion,
                                             *edit.dilation, width, volume_.has_value()},
@@ -331,42 +244,40 @@ class Forger {
         }
     }
 
-    /// Adds the displacements in double; where occluders are, the exact finish decides.
-    void move_vertices(const EditRegion& region, const DeformInput& input,
+    void move_vertices(const Edit& edit, const EditRegion& region, const DeformInput& input,
                        const std::vector<PointResult>& results, EditReport& report) {
         const StageTimer timer(seconds().deform);
-        std::vector<Vec3> ends(input.points.size());
-        std::vector<bool> inside(input.points.size(), false);
-        for (size_t i = 0; i < ends.size(); ++i) {
-            if (!is_finite(results[i].displacement)) {
-                throw InternalError("vertex " + std::to_string(region.vertices[i]) +
-                                    " was moved to no place");
-            }
-            ends[i] = input.points[i] + results[i].displacement;
-            inside[i] = (results[i].flags & kernel::f64::VERTEX_STARTED_INSIDE) != 0;
-        }
-        const std::vector<Vec3> unfinished = ends;
-        if (!input.occluders.empty()) {
-            report.contact = ContactReport{};
-            report.contact->started_inside =
-                static_cast<size_t>(std::count(inside.begin(), inside.end(), true));
-            if (!input.occluders.paper) {
-                report.contact->finished_on_cpu = finish_contact(input.occluders, input.points, inside, ends);
-            }
-            measure_vertices(at_end(input.occluders), ends, inside, *report.contact);
-        }
-        for (size_t i = 0; i < ends.size(); ++i) {
-            const Vec3 displacement = results[i].displacement + (ends[i] - unfinished[i]);
-            Vec3& position = result_.positions[region.vertices[i]];
-            const Vec3 end = position + displacement;
-            report.moved += end != position ? 1 : 0;
-            result_.moved[region.vertices[i]] = result_.moved[region.vertices[i]] || end != position;
-            position = end;
+        const EditEnds ends = finished_ends(input, results);
+        for (size_t i = 0; i < ends.ends.size(); ++i) {
+            const uint32_t v = region.vertices[i];
+            const Vec3 end = result_.positions[v] + ends.displacements[i];
+            report.moved += end != result_.positions[v] ? 1 : 0;
+            result_.moved[v] = result_.moved[v] || end != result_.positions[v];
+            result_.positions[v] = end;
         }
         if (report.moved > 0) {
             surface_.reset(); // it knows the positions before
         }
         count_steps(results, report);
+        if (!input.occluders.empty()) {
+            report_contact(edit, region, input, ends, report);
+        }
+    }
+
+    void report_contact(const Edit& edit, const EditRegion& region, const DeformInput& input,
+                        const EditEnds& ends, EditReport& report) {
+        std::vector<std::string> names;
+        for (const OccluderUse& use : occluders_of(recipe_, edit)) {
+            names.push_back(use.name);
+        }
+        report.contact = contact_of(input, ends, region, mesh(), result_.positions, origin_);
+        report.contacts = contact_lists(*report.contact, names, region, mesh());
+        result_.touching.assign(mesh().vertex_count(), false);
+        for (const ContactList& list : report.contacts) {
+            for (const uint32_t v : list.vertices) {
+                result_.touching[v] = true;
+            }
+        }
     }
 
     void count_steps(const std::vector<PointResult>& results, EditReport& report) {
@@ -388,57 +299,6 @@ class Forger {
                       " vertices reached the step limit and stopped outside the occluder: raise \"steps\": "
                       "{\"max\": "
                       "...} or shorten the path");
-        }
-    }
-
-    void report_triangles(const EditRegion& region, const DeformInput& input, EditReport& report) {
-        if (input.occluders.empty()) {
-            return;
-        }
-        const StageTimer timer(seconds().deform);
-        std::vector<bool> in_region(mesh().vertex_count(), false);
-        for (uint32_t v : region.vertices) {
-            in_region[v] = true;
-        }
-        std::vector<Triangle> triangles;
-        std::vector<uint32_t> places;
-        for (uint32_t i = 0; i < mesh().triangles.size(); ++i) {
-            const Triangle& t = mesh().triangles[i];
-            if (in_region[t[0]] || in_region[t[1]] || in_region[t[2]]) {
-                triangles.push_back(t);
-                places.push_back(i);
-            }
-        }
-        measure_triangles(at_end(input.occluders), result_.positions, origin_, triangles, *report.contact);
-        for (OccluderContact& occluder : report.contact->occluders) {
-            for (uint32_t& triangle : occluder.triangles) {
-                triangle = places[triangle];
-            }
-        }
-    }
-
-    /// From the region's points and the mesh's triangles to the file's numbers.
-    void report_contacts(const Edit& edit, const EditRegion& region, EditReport& report) {
-        if (!report.contact) {
-            return;
-        }
-        result_.touching.assign(mesh().vertex_count(), false);
-        const std::vector<OccluderUse> uses = occluders_of(recipe_, edit);
-        for (size_t k = 0; k < uses.size(); ++k) {
-            ContactList list{uses[k].name, {}, {}};
-            for (const uint32_t point : report.contact->occluders[k].points) {
-                list.vertices.push_back(region.vertices[point]);
-                result_.touching[region.vertices[point]] = true;
-            }
-            uint32_t face = 0;
-            for (const uint32_t triangle : report.contact->occluders[k].triangles) {
-                while (mesh().first_triangle(face + size_t{1}) <= triangle) {
-                    ++face;
-                }
-                list.triangles.push_back(
-                    {face, triangle - static_cast<uint32_t>(mesh().first_triangle(face))});
-            }
-            report.contacts.push_back(std::move(list));
         }
     }
 
@@ -481,7 +341,7 @@ class Forger {
     Log& log_;
     Progress& progress_;
     const FileCache* cache_;
-    std::map<std::string, OccluderModel> models_;
+    std::optional<EditOccluders> occluders_;
     Vec3 origin_{0};
     double diagonal_ = 0;
     ForgeResult result_;
