@@ -69,8 +69,8 @@ int main(int argc, char** argv) {
     anvil::add_sample(program, context);
     anvil::add_devices(program, context);
     anvil::add_selftest(program, context);
+    anvil::add_bench(program, context);
     program.add_later_command("view", "Open a mesh or recipe in a window");
-    program.add_later_command("bench", "Measure this machine");
 
     const int status = run(program, argc, argv);
     anvil::clear_progress_bar();

@@ -78,6 +78,7 @@ void add_bake(Program& program, CommandContext& context);
 void add_sample(Program& program, CommandContext& context);
 void add_devices(Program& program, CommandContext& context);
 void add_selftest(Program& program, CommandContext& context);
+void add_bench(Program& program, CommandContext& context);
 
 /// Writes to the file, whole or not at all, or to stdout where `path` is empty. @throws WriteError
 void write_text(const std::string& path, const std::string& text);

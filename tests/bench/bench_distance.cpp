@@ -4,7 +4,7 @@
 #include "engine/distance/distance.h"
 #include "engine/mesh/mesh_reader.h"
 #include "engine/mesh/sample_shapes.h"
-#include "tests/bench/lean_dijkstra.h"
+#include "app/bench/lean_dijkstra.h"
 
 #include <cstdio>
 #include <cstdlib>

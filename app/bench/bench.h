@@ -1,0 +1,22 @@
+// The benchmark: cases chosen, run and reported.
+#pragma once
+
+#include "app/bench/bench_report.h"
+#include "app/bench/workshop.h"
+
+#include <functional>
+
+namespace anvil {
+
+struct BenchOptions {
+    BenchExtent extent;
+    BenchClock clock = BenchClock::wall;
+    std::string only; ///< cases whose name contains this; empty: all
+};
+
+/// `heard` is given every result as it comes. @throws InputError if no case has `only` in its name,
+/// Cancelled.
+BenchRun run_bench(Backend& tested, const BenchOptions& options, Progress& progress,
+                   const std::function<void(const BenchResult&)>& heard);
+
+} // namespace anvil

@@ -1,0 +1,46 @@
+// What `anvil bench` measures, and what comes out.
+#pragma once
+
+#include "app/bench/timing.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace anvil {
+
+/// Work of another kind that a case is held against in the same run.
+struct Yardstick {
+    std::string name;
+    std::function<void()> work;
+};
+
+/// A case that is ready to run; its functions own what they need.
+struct ReadyCase {
+    size_t vertices = 0; ///< of the mesh
+    size_t region = 0;   ///< of them, those that the work is about
+    uint64_t bytes = 0;  ///< that have to be read or written at least once
+    std::function<void()> work;
+    std::vector<Yardstick> yardsticks;
+};
+
+/// A case that is prepared only when it is its turn. The name has no spaces; its parts are joined by '/'.
+struct BenchCase {
+    std::string name;
+    std::function<ReadyCase()> prepare;
+};
+
+struct BenchResult {
+    std::string name;
+    size_t vertices = 0;
+    size_t region = 0;
+    Timing timing;
+    uint64_t bytes = 0;
+    std::vector<std::pair<std::string, double>> ratios; ///< by yardstick: median over the yardstick's median
+};
+
+BenchResult run_case(const BenchCase& bench, const SamplingEffort& effort);
+
+} // namespace anvil
