@@ -142,7 +142,7 @@ class Forger {
             adopt(divided(mesh(), std::move(refinement.state.parents), refinement.faces));
             refined = region_after(region, refinement.state, pinned);
         }
-        report.refine = summary_of(refinement.report, points_added);
+        report.refine = summary_of(refinement.report, points_added, place, log_);
         report.refine->min_angle_before = angle_before;
         report.refine->min_angle_after = least_angle(mesh().triangles, result_.positions, refined.vertices);
         return refined;
@@ -164,7 +164,7 @@ class Forger {
             return run.moved(places, distances);
         };
         return settings.criterion == RefineCriterion::space
-                   ? make_space_criterion(std::move(move))
+                   ? make_space_criterion(std::move(move), settings.space_tolerance)
                    : make_both_criteria(settings.shape_tolerance, std::move(move), settings.space_tolerance);
     }
 

@@ -8,8 +8,6 @@ namespace anvil {
 
 namespace {
 
-// Of the tolerance in space: shorter edges are not cut.
-constexpr double parting = 0.05;
 constexpr size_t default_limit = 1'000'000;
 
 /// Points of the anchors of all kinds; of faces the corners.
@@ -128,19 +126,18 @@ RefineOptions options_of(const Refine& refine, size_t vertex_count) {
         options.tolerance = 1;
         break;
     }
-    if (refine.criterion != RefineCriterion::shape) {
-        // Where an occluder parts the surface, two points close together end apart, however close they are.
-        options.min_edge = std::max(options.min_edge, parting * refine.space_tolerance);
-    }
     options.max_vertices = refine.max_vertices.value_or(
         static_cast<uint32_t>(std::min<size_t>(std::max(default_limit, 2 * vertex_count), no_index - 1)));
     return options;
 }
 
-RefineSummary summary_of(const RefineReport& report, size_t points_added) {
+RefineSummary summary_of(const RefineReport& report, size_t points_added, const std::string& place,
+                         Log& log) {
     RefineSummary summary;
     summary.added = report.added + points_added;
     summary.max_error = report.max_error;
+    summary.parted_edges = report.parted_edges;
+    summary.parted_error = report.parted_error;
     switch (report.stopped_by) {
     case RefineStop::tolerance:
         summary.stopped_by = "tolerance";
@@ -151,6 +148,16 @@ RefineSummary summary_of(const RefineReport& report, size_t points_added) {
     case RefineStop::max_vertices:
         summary.stopped_by = "max_vertices";
         break;
+    case RefineStop::parting:
+        summary.stopped_by = "parting";
+        break;
+    }
+    if (report.parted_edges > 0) {
+        log.warn(place +
+                 ": the surface goes past an occluder on different sides, or is pulled apart in some "
+                 "other way: " +
+                 std::to_string(report.parted_edges) +
+                 " edges there miss the tolerance, however short they are, and were left");
     }
     return summary;
 }

@@ -1,6 +1,7 @@
 // Refinement as a stage of an edit: which places become vertices, and the region over them.
 #pragma once
 
+#include "engine/core/log.h"
 #include "engine/forge/edit_region.h"
 #include "engine/forge/report.h"
 #include "engine/refine/adaptive_refinement.h"
@@ -22,7 +23,8 @@ EditRegion region_after(const EditRegion& before, const RefineState& state,
 
 RefineOptions options_of(const Refine& refine, size_t vertex_count);
 
-RefineSummary summary_of(const RefineReport& report, size_t points_added);
+/// Warns where the edit, `place`, parts the surface.
+RefineSummary summary_of(const RefineReport& report, size_t points_added, const std::string& place, Log& log);
 
 /// Least angle, in degrees, of the triangles with a corner among the (ascending) vertices that are not
 /// degenerate; 0 if there are none.

@@ -46,8 +46,12 @@ struct DilationReport {
 /// What refinement did; angles in degrees, of the triangles in the region before the edit moved them.
 struct RefineSummary {
     size_t added = 0;
-    double max_error = 0;   ///< of the edges that remain, or a bound of it; in the criterion's unit
-    std::string stopped_by; ///< "tolerance", "min_edge" or "max_vertices"
+    double max_error =
+        0; ///< of the edges that remain and are not parted, or a bound of it; in the criterion's unit
+    size_t parted_edges =
+        0; ///< left apart by more than the tolerance, since the edit tears the surface there
+    double parted_error = 0;
+    std::string stopped_by; ///< "tolerance", "min_edge", "max_vertices" or "parting"
     double min_angle_before = 0;
     double min_angle_after = 0;
 };

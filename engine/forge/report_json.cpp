@@ -26,12 +26,16 @@ Json refine_json(const std::optional<RefineSummary>& r) {
         return {{"added", 0},
                 {"max_error", nullptr},
                 {"stopped_by", nullptr},
+                {"parted_edges", 0},
+                {"parted_error", 0},
                 {"min_angle_before", nullptr},
                 {"min_angle_after", nullptr}};
     }
     return {{"added", r->added},
             {"max_error", number(r->max_error)},
             {"stopped_by", r->stopped_by},
+            {"parted_edges", r->parted_edges},
+            {"parted_error", number(r->parted_error)},
             {"min_angle_before", number(r->min_angle_before)},
             {"min_angle_after", number(r->min_angle_after)}};
 }

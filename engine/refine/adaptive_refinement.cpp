@@ -2,6 +2,7 @@
 
 #include "engine/refine/creases.h"
 #include "engine/refine/flip_edges.h"
+#include "engine/refine/longest_first.h"
 
 #include <numeric>
 
@@ -12,13 +13,10 @@ namespace {
 // Pieces shorter than this, in radii, are rounding of a vertex that is where it should be.
 constexpr double shortest_piece = 1e-7;
 
-/// A place at which an edge is to be split.
-struct Split {
-    uint32_t edge = 0;
-    double place = 0;
-    double error = 0;
-    uint32_t crease = no_index;
-};
+// Edges of faces lower than this, over their longest edge, give way to that edge: new edges pile up against
+// one that is not split while the faces beside it miss the tolerance, each half as far from it as the one
+// before.
+constexpr double thinnest = 0.1;
 
 class Refiner {
   public:
@@ -40,10 +38,11 @@ class Refiner {
         std::vector<uint32_t> faces = all_faces();
         while (!edges.empty()) {
             progress_.report("refine", 1 - 1 / (1.0 + static_cast<double>(report_.rounds)));
-            std::vector<Split> splits = find_splits(edges);
+            std::vector<EdgeSplit> splits = find_splits(edges);
             if (splits.empty() && !full_) {
                 splits = find_face_splits();
             }
+            const std::vector<uint32_t> again = let_longest_first(splits);
             if (splits_everywhere_) {
                 faces = all_faces();
             }
@@ -57,6 +56,9 @@ class Refiner {
             });
             edges.resize(mesh_.edges().size() - first_new_edge);
             std::iota(edges.begin(), edges.end(), static_cast<uint32_t>(first_new_edge));
+            if (!splits.empty()) {
+                edges.insert(edges.end(), again.begin(), again.end());
+            }
             edges.erase(
                 std::remove_if(edges.begin(), edges.end(), [this](uint32_t e) { return mesh_.is_split(e); }),
                 edges.end());
@@ -107,18 +109,20 @@ class Refiner {
 
     /// Measures the edges, and lets the kinks that matter become creases: then every edge of the mesh that
     /// crosses one is split there, whatever its own error.
-    std::vector<Split> find_splits(const std::vector<uint32_t>& edges) {
+    std::vector<EdgeSplit> find_splits(const std::vector<uint32_t>& edges) {
         const std::vector<EdgeSpan> spans = spans_of(edges);
         const auto findings = criterion_.measure(state_, spans, options_.tolerance);
         errors_.resize(mesh_.edges().size(), 0);
+        parted_.resize(mesh_.edges().size(), 0);
         std::vector<uint32_t> fresh;
         for (size_t i = 0; i < edges.size(); ++i) {
             errors_[edges[i]] = findings[i].error.error;
+            parted_[edges[i]] = findings[i].parted ? 1 : 0;
             if (findings[i].error.error > options_.tolerance && findings[i].error.level != no_index) {
                 creases_.raise(findings[i].handle, findings[i].error.level, fresh);
             }
         }
-        std::vector<Split> splits;
+        std::vector<EdgeSplit> splits;
         std::vector<char> taken(mesh_.edges().size(), 0);
         splits_everywhere_ = !fresh.empty();
         if (splits_everywhere_) {
@@ -128,7 +132,7 @@ class Refiner {
             add_crossings(edges, splits, taken);
         }
         for (size_t i = 0; i < edges.size(); ++i) {
-            if (!taken[edges[i]] && findings[i].error.error > options_.tolerance) {
+            if (!taken[edges[i]] && findings[i].error.error > options_.tolerance && !findings[i].parted) {
                 add_split({edges[i], findings[i].error.place, findings[i].error.error, no_index},
                           spans[i].length, splits);
             }
@@ -136,27 +140,47 @@ class Refiner {
         return splits;
     }
 
+    /// @return edges that are to be looked at again.
+    std::vector<uint32_t> let_longest_first(std::vector<EdgeSplit>& splits) {
+        parted_.resize(mesh_.edges().size(), 0);
+        GivenWay given = put_longest_first(mesh_, state_.positions, thinnest, parted_, splits);
+        for (const uint32_t edge : given.blocked) {
+            parted_[edge] = 1;
+        }
+        splits_everywhere_ = splits_everywhere_ || !given.later.empty();
+        return std::move(given.later);
+    }
+
     /// Edges are within the tolerance; faces that are not are split at their longest edge.
-    std::vector<Split> find_face_splits() {
+    std::vector<EdgeSplit> find_face_splits() {
         std::vector<Triangle> corners;
         corners.reserve(mesh_.faces().size());
         for (const EdgeMesh::Face& face : mesh_.faces()) {
             corners.push_back(face.corners);
         }
-        const std::vector<double> found = criterion_.measure_faces(state_, corners);
-        std::vector<Split> splits;
+        const auto found = criterion_.measure_faces(state_, corners, options_.tolerance);
+        std::vector<EdgeSplit> splits;
         std::vector<char> taken(mesh_.edges().size(), 0);
         face_error_ = 0;
         for (size_t f = 0; f < found.size(); ++f) {
-            face_error_ = std::max(face_error_, found[f]);
-            const auto [edge, length] = longest_edge(mesh_.faces()[f]);
-            if (found[f] > options_.tolerance && edge != no_index && !taken[edge]) {
+            const EdgeMesh::Face& face = mesh_.faces()[f];
+            if (found[f].parted || is_parted(face)) {
+                continue;
+            }
+            face_error_ = std::max(face_error_, found[f].error);
+            const auto [edge, length] = longest_edge(face);
+            if (found[f].error > options_.tolerance && edge != no_index && !taken[edge]) {
                 taken[edge] = 1;
-                add_split({edge, 0.5, found[f], no_index}, length, splits);
+                add_split({edge, 0.5, found[f].error, no_index}, length, splits);
             }
         }
         splits_everywhere_ = true; // the faces on the other side were not changed last
         return splits;
+    }
+
+    bool is_parted(const EdgeMesh::Face& face) const {
+        return std::any_of(face.edges.begin(), face.edges.end(),
+                           [this](uint32_t e) { return e != no_index && parted_[e] != 0; });
     }
 
     std::pair<uint32_t, double> longest_edge(const EdgeMesh::Face& face) const {
@@ -180,7 +204,7 @@ class Refiner {
         return edges;
     }
 
-    void add_crossings(const std::vector<uint32_t>& edges, std::vector<Split>& splits,
+    void add_crossings(const std::vector<uint32_t>& edges, std::vector<EdgeSplit>& splits,
                        std::vector<char>& taken) {
         if (creases_.empty()) {
             return;
@@ -198,7 +222,7 @@ class Refiner {
     }
 
     /// Moves the place so that no piece is too short; drops the split where both would be.
-    void add_split(Split split, double length, std::vector<Split>& splits) {
+    void add_split(EdgeSplit split, double length, std::vector<EdgeSplit>& splits) {
         const double margin = shortest_ / length;
         if (margin >= 0.5) {
             limited_ = true;
@@ -213,11 +237,11 @@ class Refiner {
     }
 
     /// Leaves the worst ones if not all can be made; false if none can.
-    bool keep_within_limit(std::vector<Split>& splits) {
+    bool keep_within_limit(std::vector<EdgeSplit>& splits) {
         const size_t room = options_.max_vertices - std::min(options_.max_vertices, state_.positions.size());
         if (splits.size() > room) {
             full_ = true;
-            std::sort(splits.begin(), splits.end(), [](const Split& x, const Split& y) {
+            std::sort(splits.begin(), splits.end(), [](const EdgeSplit& x, const EdgeSplit& y) {
                 return x.error != y.error ? x.error > y.error : x.edge < y.edge;
             });
             splits.resize(room);
@@ -225,8 +249,8 @@ class Refiner {
         return !splits.empty();
     }
 
-    void insert(const std::vector<Split>& splits) {
-        for (const Split& split : splits) {
+    void insert(const std::vector<EdgeSplit>& splits) {
+        for (const EdgeSplit& split : splits) {
             const EdgeMesh::Edge edge = mesh_.edges()[split.edge];
             const uint32_t vertex = state_.add_vertex({edge.a, edge.b, split.place});
             mesh_.mark(split.edge, vertex);
@@ -250,16 +274,21 @@ class Refiner {
 
     Refinement finished() {
         errors_.resize(mesh_.edges().size(), 0);
+        parted_.resize(mesh_.edges().size(), 0);
         for (uint32_t e = 0; e < mesh_.edges().size(); ++e) {
-            if (!mesh_.is_split(e)) {
+            if (!mesh_.is_split(e) && parted_[e]) {
+                ++report_.parted_edges;
+                report_.parted_error = std::max(report_.parted_error, errors_[e]);
+            } else if (!mesh_.is_split(e)) {
                 report_.max_error = std::max(report_.max_error, errors_[e]);
             }
         }
         report_.max_error = std::max(report_.max_error, face_error_);
         report_.added = state_.positions.size() - first_vertices_;
-        report_.stopped_by = full_      ? RefineStop::max_vertices
-                             : limited_ ? RefineStop::min_edge
-                                        : RefineStop::tolerance;
+        report_.stopped_by = full_                      ? RefineStop::max_vertices
+                             : limited_                 ? RefineStop::min_edge
+                             : report_.parted_edges > 0 ? RefineStop::parting
+                                                        : RefineStop::tolerance;
         std::vector<EdgeMesh::Face> faces = mesh_.faces();
         if (options_.flip) {
             report_.max_error = std::max(report_.max_error, flip(faces));
@@ -294,6 +323,7 @@ class Refiner {
     double shortest_ = 0;
     RefineReport report_;
     std::vector<double> errors_;   ///< per edge, as last measured
+    std::vector<char> parted_;     ///< per edge: not 0 where no split brings the error down
     std::vector<uint32_t> labels_; ///< per vertex: the crease that it was put on
     double face_error_ = 0;        ///< inside faces, as last measured
     bool splits_everywhere_ = false;
@@ -309,8 +339,9 @@ bool comes_within(const Triangle& t, std::span<const Vec3> positions, const Vec3
 
 } // namespace
 
-std::vector<double> EdgeCriterion::measure_faces(const RefineState& /*state*/,
-                                                 std::span<const Triangle> /*faces*/) {
+std::vector<EdgeCriterion::FaceFinding> EdgeCriterion::measure_faces(const RefineState& /*state*/,
+                                                                     std::span<const Triangle> /*faces*/,
+                                                                     double /*enough*/) {
     return {};
 }
 

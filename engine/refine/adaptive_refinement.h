@@ -16,7 +16,7 @@ struct RefineOptions {
     bool flip = false; ///< at the end, flip edges inside divided triangles for larger angles (see flip_edges)
 };
 
-enum class RefineStop { tolerance, min_edge, max_vertices };
+enum class RefineStop { tolerance, min_edge, max_vertices, parting };
 
 /// What refinement works on and adds to. New vertices follow the old ones everywhere.
 struct RefineState {
@@ -38,12 +38,18 @@ class EdgeCriterion {
     struct Finding {
         EdgeError error;
         uint32_t handle = 0;
+        bool parted = false; ///< no split brings the error down: the edit tears the surface there
     };
     virtual std::vector<Finding> measure(const RefineState& state, std::span<const EdgeSpan> edges,
                                          double enough) = 0;
 
+    struct FaceFinding {
+        double error = 0;
+        bool parted = false; ///< as that of an edge
+    };
     /// The error inside each face, where edges do not tell it; empty: they do.
-    virtual std::vector<double> measure_faces(const RefineState& state, std::span<const Triangle> faces);
+    virtual std::vector<FaceFinding> measure_faces(const RefineState& state, std::span<const Triangle> faces,
+                                                   double enough);
 };
 
 /// eps = max over handles of |phi_j(g_j(s) / R_j) - linear interpolation of its end values|: dimensionless.
@@ -51,7 +57,10 @@ std::unique_ptr<EdgeCriterion> make_shape_criterion();
 
 struct RefineReport {
     size_t added = 0;
-    double max_error = 0; ///< of all edges that remain, or a bound of it; in the criterion's unit
+    double max_error = 0;    ///< of all edges that remain and are not parted, or a bound of it; in the
+                             ///< criterion's unit
+    size_t parted_edges = 0; ///< that remain: no split brings them within the tolerance, or only into slivers
+    double parted_error = 0; ///< the largest of these
     RefineStop stopped_by = RefineStop::tolerance;
     size_t rounds = 0;
 };
@@ -64,10 +73,10 @@ struct Refinement {
 };
 
 /// Splits edges at their worst places, round by round, until every edge of the triangles that some handle
-/// reaches is within the tolerance or a limit stops it; and faces within whose edges the criterion still
-/// finds an error at the middle of their longest edge. A kink of a shape function at which some edge misses
-/// the tolerance becomes a crease: all edges that cross it are split where they do, so that it is a chain of
-/// edges (vertices within 5e-7 of the radius count as on it). Distances have to be known up to
+/// reaches is within the tolerance or parted, or a limit stops it; and faces within whose edges the criterion
+/// still finds an error at the middle of their longest edge. A kink of a shape function at which some edge
+/// misses the tolerance becomes a crease: all edges that cross it are split where they do, so that it is a
+/// chain of edges (vertices within 5e-7 of the radius count as on it). Distances have to be known up to
 /// needed_reach(); sources are vertices.
 /// @throws Cancelled.
 Refinement refine(std::span<const Triangle> triangles, RefineState state, EdgeCriterion& criterion,

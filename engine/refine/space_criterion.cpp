@@ -12,6 +12,12 @@ constexpr std::array<double, 7> closing_steps{0.125, 0.0625, 0.03125, 0.015625, 
 // An edge that misses this little of the tolerance at three places hides no miss of it elsewhere.
 constexpr double worth_a_second_look = 0.25;
 constexpr size_t batch = size_t{1} << 18;
+// A part of an edge is torn that the edit makes longer than the tolerance, and so many times longer than
+// before.
+constexpr double torn = 20;
+// Edges are cut no nearer to their ends than this share, except at kinks: slivers cost more than some
+// vertices.
+constexpr double off_centre = 0.3;
 
 /// A place on an edge of the batch, and the kink that lies there.
 struct Sample {
@@ -21,9 +27,38 @@ struct Sample {
     uint32_t level = no_index;
 };
 
+/// What linear interpolation misses at a place of an edge.
+struct Miss {
+    double place;
+    Vec3 by;
+};
+
+/// A part of an edge, and what its ends miss.
+struct Gap {
+    Miss from, to;
+
+    double width() const { return glm::distance(from.by, to.by); }
+    double length() const { return to.place - from.place; }
+    double middle() const { return 0.5 * (from.place + to.place); }
+};
+
+/// The part between two places that follow each other whose ends differ most.
+Gap widest_gap(std::vector<Miss> misses) {
+    misses.push_back({0, Vec3(0)});
+    misses.push_back({1, Vec3(0)});
+    std::sort(misses.begin(), misses.end(), [](const Miss& x, const Miss& y) { return x.place < y.place; });
+    Gap widest{misses[0], misses[1]};
+    for (size_t i = 2; i < misses.size(); ++i) {
+        const Gap gap{misses[i - 1], misses[i]};
+        widest = gap.width() > widest.width() ? gap : widest;
+    }
+    return widest;
+}
+
 class SpaceCriterion : public EdgeCriterion {
   public:
-    explicit SpaceCriterion(MovePoints move) : move_(std::move(move)) {}
+    SpaceCriterion(MovePoints move, double parting_length)
+        : move_(std::move(move)), parting_length_(parting_length) {}
 
     std::vector<Finding> measure(const RefineState& state, std::span<const EdgeSpan> edges,
                                  double enough) override {
@@ -36,14 +71,18 @@ class SpaceCriterion : public EdgeCriterion {
         return findings;
     }
 
-    std::vector<double> measure_faces(const RefineState& state, std::span<const Triangle> faces) override {
+    std::vector<FaceFinding> measure_faces(const RefineState& state, std::span<const Triangle> faces,
+                                           double enough) override {
         follow_vertices(state);
-        std::vector<double> errors(faces.size(), 0);
+        std::vector<FaceFinding> findings(faces.size());
         for (size_t begin = 0; begin < faces.size(); begin += batch) {
             const size_t count = std::min(batch, faces.size() - begin);
-            measure_face_batch(state, faces.subspan(begin, count), &errors[begin]);
+            measure_face_batch(state, faces.subspan(begin, count), &findings[begin]);
         }
-        return errors;
+        for (size_t f = 0; f < faces.size(); ++f) {
+            findings[f].parted = is_too_short(longest_side(state, faces[f]), enough);
+        }
+        return findings;
     }
 
   private:
@@ -95,7 +134,7 @@ class SpaceCriterion : public EdgeCriterion {
             }
             add_kinks(measures, edges[e], e, samples);
         }
-        std::vector<std::vector<Vec3>> misses(edges.size());
+        std::vector<std::vector<Miss>> misses(edges.size());
         look(state, measures, edges, samples, misses, findings);
         std::vector<Sample> further;
         for (size_t e = 0; e < edges.size(); ++e) {
@@ -110,13 +149,62 @@ class SpaceCriterion : public EdgeCriterion {
         for (const double step : closing_steps) {
             close_in(state, measures, edges, enough, step, misses, findings);
         }
+        find_partings(state, measures, edges, enough, misses, findings);
+        for (size_t e = 0; e < edges.size(); ++e) {
+            EdgeError& error = findings[e].error;
+            if (error.level == no_index) {
+                error.place = std::clamp(error.place, off_centre, 1 - off_centre);
+            }
+        }
+    }
+
+    /// Short edges that miss more than the tolerance: whether a part of them is torn. A map that is not
+    /// brings the ends of a part together as it is halved.
+    void find_partings(const RefineState& state, std::vector<EdgeMeasure>& measures,
+                       std::span<const EdgeSpan> edges, double enough,
+                       const std::vector<std::vector<Miss>>& misses, Finding* findings) const {
+        std::vector<std::pair<size_t, Gap>> gaps;
+        for (size_t e = 0; e < edges.size(); ++e) {
+            if (findings[e].error.error > enough && edges[e].length <= parting_length_) {
+                findings[e].parted = is_too_short(edges[e].length, enough);
+                gaps.emplace_back(e, widest_gap(misses[e]));
+            }
+        }
+        while (!gaps.empty()) {
+            std::vector<Sample> samples;
+            std::vector<std::pair<size_t, Gap>> open;
+            for (const auto& [edge, gap] : gaps) {
+                if (findings[edge].parted || gap.width() <= enough) {
+                    continue;
+                }
+                if (is_too_short(gap.length() * edges[edge].length, enough)) {
+                    findings[edge].parted = true;
+                } else {
+                    open.emplace_back(edge, gap);
+                    samples.push_back({edge, gap.middle()});
+                }
+            }
+            gaps = std::move(open);
+            narrow(misses_at(state, measures, edges, samples), gaps);
+        }
+    }
+
+    static bool is_too_short(double length, double enough) { return length * torn <= enough; }
+
+    static void narrow(const std::vector<Vec3>& at_middle, std::vector<std::pair<size_t, Gap>>& gaps) {
+        for (size_t i = 0; i < gaps.size(); ++i) {
+            const Gap& gap = gaps[i].second;
+            const Gap first{gap.from, {gap.middle(), at_middle[i]}};
+            const Gap second{first.to, gap.to};
+            gaps[i].second = second.width() > first.width() ? second : first;
+        }
     }
 
     /// On edges that will be split: both sides of the worst place so far. A vertex beside the line where the
     /// surface meets an occluder calls for another one.
     void close_in(const RefineState& state, std::vector<EdgeMeasure>& measures,
                   std::span<const EdgeSpan> edges, double enough, double step,
-                  std::vector<std::vector<Vec3>>& misses, Finding* findings) const {
+                  std::vector<std::vector<Miss>>& misses, Finding* findings) const {
         std::vector<Sample> samples;
         for (size_t e = 0; e < edges.size(); ++e) {
             const EdgeError& error = findings[e].error;
@@ -145,11 +233,9 @@ class SpaceCriterion : public EdgeCriterion {
         }
     }
 
-    /// Moves the samples and adds what they miss. The error of an edge is the diameter of its misses and 0:
-    /// so is that of its parts no larger (see EdgeError).
-    void look(const RefineState& state, std::vector<EdgeMeasure>& measures, std::span<const EdgeSpan> edges,
-              const std::vector<Sample>& samples, std::vector<std::vector<Vec3>>& misses,
-              Finding* findings) const {
+    /// What linear interpolation misses at the samples.
+    std::vector<Vec3> misses_at(const RefineState& state, std::vector<EdgeMeasure>& measures,
+                                std::span<const EdgeSpan> edges, const std::vector<Sample>& samples) const {
         Points points;
         for (const Sample& sample : samples) {
             const EdgeSpan& edge = edges[sample.edge];
@@ -158,19 +244,31 @@ class SpaceCriterion : public EdgeCriterion {
                 points.distances.push_back(measure.distance(edge, sample.place));
             }
         }
-        const std::vector<Vec3> ends = moved(points, measures.size());
+        std::vector<Vec3> misses = moved(points, measures.size());
+        for (size_t i = 0; i < samples.size(); ++i) {
+            const EdgeSpan& edge = edges[samples[i].edge];
+            misses[i] -= between(ends_[edge.a], ends_[edge.b], samples[i].place);
+        }
+        return misses;
+    }
+
+    /// Moves the samples and adds what they miss. The error of an edge is the diameter of its misses and 0:
+    /// so is that of its parts no larger (see EdgeError).
+    void look(const RefineState& state, std::vector<EdgeMeasure>& measures, std::span<const EdgeSpan> edges,
+              const std::vector<Sample>& samples, std::vector<std::vector<Miss>>& misses,
+              Finding* findings) const {
+        const std::vector<Vec3> found = misses_at(state, measures, edges, samples);
         for (size_t i = 0; i < samples.size(); ++i) {
             const Sample& sample = samples[i];
-            const EdgeSpan& edge = edges[sample.edge];
-            const Vec3 miss = ends[i] - between(ends_[edge.a], ends_[edge.b], sample.place);
-            std::vector<Vec3>& others = misses[sample.edge];
+            const Vec3& miss = found[i];
+            std::vector<Miss>& others = misses[sample.edge];
             Finding& finding = findings[sample.edge];
             double largest = 0;
-            for (const Vec3& other : others) {
-                finding.error.error = std::max(finding.error.error, glm::distance(miss, other));
-                largest = std::max(largest, glm::length(other));
+            for (const Miss& other : others) {
+                finding.error.error = std::max(finding.error.error, glm::distance(miss, other.by));
+                largest = std::max(largest, glm::length(other.by));
             }
-            others.push_back(miss);
+            others.push_back({sample.place, miss});
             finding.error.error = std::max(finding.error.error, glm::length(miss));
             if (glm::length(miss) > largest) {
                 finding.error.place = sample.place;
@@ -182,7 +280,8 @@ class SpaceCriterion : public EdgeCriterion {
 
     /// Four inner points of each face; on the way from a corner to the opposite edge their distances are
     /// those that vertices put there would get.
-    void measure_face_batch(const RefineState& state, std::span<const Triangle> faces, double* errors) const {
+    void measure_face_batch(const RefineState& state, std::span<const Triangle> faces,
+                            FaceFinding* findings) const {
         constexpr std::array<std::array<double, 2>, 4> inner{
             {{2.0 / 3, 0.5}, {1.0 / 3, 0.5}, {5.0 / 6, 0.2}, {5.0 / 6, 0.8}}};
         Points points;
@@ -196,9 +295,15 @@ class SpaceCriterion : public EdgeCriterion {
             const Triangle& t = faces[i / inner.size()];
             const auto& [down, across] = inner[i % inner.size()];
             const Vec3 straight = between(ends_[t[0]], between(ends_[t[1]], ends_[t[2]], across), down);
-            double& error = errors[i / inner.size()];
+            double& error = findings[i / inner.size()].error;
             error = std::max(error, glm::distance(ends[i], straight));
         }
+    }
+
+    static double longest_side(const RefineState& state, const Triangle& t) {
+        const auto& p = state.positions;
+        return std::max({glm::distance(p[t[0]], p[t[1]]), glm::distance(p[t[1]], p[t[2]]),
+                         glm::distance(p[t[2]], p[t[0]])});
     }
 
     static void add_inner_point(const RefineState& state, const Triangle& t, double down, double across,
@@ -221,54 +326,14 @@ class SpaceCriterion : public EdgeCriterion {
     }
 
     MovePoints move_;
+    double parting_length_;
     std::vector<Vec3> ends_; ///< of the vertices
-};
-
-class WorseOfBoth : public EdgeCriterion {
-  public:
-    WorseOfBoth(std::unique_ptr<EdgeCriterion> first, double first_tolerance,
-                std::unique_ptr<EdgeCriterion> second, double second_tolerance)
-        : first_(std::move(first)), second_(std::move(second)), first_tolerance_(first_tolerance),
-          second_tolerance_(second_tolerance) {}
-
-    std::vector<Finding> measure(const RefineState& state, std::span<const EdgeSpan> edges,
-                                 double enough) override {
-        auto findings = first_->measure(state, edges, enough * first_tolerance_);
-        const auto others = second_->measure(state, edges, enough * second_tolerance_);
-        for (size_t i = 0; i < findings.size(); ++i) {
-            findings[i].error.error /= first_tolerance_;
-            const double other = others[i].error.error / second_tolerance_;
-            if (other > findings[i].error.error) {
-                findings[i] = others[i];
-                findings[i].error.error = other;
-            }
-        }
-        return findings;
-    }
-
-    std::vector<double> measure_faces(const RefineState& state, std::span<const Triangle> faces) override {
-        std::vector<double> errors = second_->measure_faces(state, faces);
-        for (double& error : errors) {
-            error /= second_tolerance_;
-        }
-        return errors;
-    }
-
-  private:
-    std::unique_ptr<EdgeCriterion> first_, second_;
-    double first_tolerance_, second_tolerance_;
 };
 
 } // namespace
 
-std::unique_ptr<EdgeCriterion> make_space_criterion(MovePoints move) {
-    return std::make_unique<SpaceCriterion>(std::move(move));
-}
-
-std::unique_ptr<EdgeCriterion> make_both_criteria(double shape_tolerance, MovePoints move,
-                                                  double space_tolerance) {
-    return std::make_unique<WorseOfBoth>(make_shape_criterion(), shape_tolerance,
-                                         make_space_criterion(std::move(move)), space_tolerance);
+std::unique_ptr<EdgeCriterion> make_space_criterion(MovePoints move, double parting_length) {
+    return std::make_unique<SpaceCriterion>(std::move(move), parting_length);
 }
 
 } // namespace anvil

@@ -13,10 +13,13 @@ using MovePoints =
 
 /// eps = |f(v(s)) - linear interpolation of f at the ends|, f the edit: world units, sampled at 3 to 7 places
 /// an edge and at kinks of the shapes; and the same at 4 points inside each face, so that none dips into an
-/// occluder between its edges. Asks for points in large batches.
-std::unique_ptr<EdgeCriterion> make_space_criterion(MovePoints move);
+/// occluder between its edges. Asks for points in large batches. An edge no longer than `parting_length` is
+/// parted if f makes a part of it longer than the tolerance and 20 times longer than it was: where f jumps,
+/// since the surface goes past an occluder on two sides, that is so however short the edges are.
+std::unique_ptr<EdgeCriterion> make_space_criterion(MovePoints move, double parting_length);
 
-/// The worse of shape and space, each over its tolerance: the tolerance of both is 1.
+/// The worse of shape and space, each over its tolerance: the tolerance of both is 1. Edges no longer than
+/// the tolerance in space can be parted.
 std::unique_ptr<EdgeCriterion> make_both_criteria(double shape_tolerance, MovePoints move,
                                                   double space_tolerance);
 

@@ -1,6 +1,8 @@
 // Processor seconds (all threads together) that adaptive refinement takes: inserting alone, and all of it.
-//   bench_refine [SAMPLE:VERTICES]
+//   bench_refine [SAMPLE:VERTICES or a mesh file] [TOLERANCE ...]
+#include "engine/core/log.h"
 #include "engine/distance/distance.h"
+#include "engine/mesh/mesh_reader.h"
 #include "engine/mesh/sample_shapes.h"
 #include "engine/refine/adaptive_refinement.h"
 
@@ -88,18 +90,30 @@ void refine_by_shape(const Mesh& mesh, const RefineState& start, double toleranc
         tolerance, report.added, report.rounds, report.max_error, median(refining), median(dividing));
 }
 
+Mesh mesh_named(const std::string& name) {
+    const size_t colon = name.find(':');
+    if (colon == std::string::npos) {
+        Log log;
+        return read_mesh(name, log);
+    }
+    return make_sample(name.substr(0, colon), std::strtoul(name.c_str() + colon + 1, nullptr, 10));
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
     const std::string name = argc > 1 ? argv[1] : "hand:511000";
-    const size_t colon = name.find(':');
-    const Mesh mesh = make_sample(name.substr(0, colon), std::strtoul(name.c_str() + colon + 1, nullptr, 10));
+    const Mesh mesh = mesh_named(name);
     std::setvbuf(stdout, nullptr, _IOLBF, 0);
     std::printf("%s: %zu vertices; medians of %d\n", name.c_str(), mesh.vertex_count(), repeats);
     const double radius = 0.3 * bounds(mesh).diagonal();
     const RefineState start = state_of(mesh, static_cast<uint32_t>(mesh.vertex_count() / 2), "wave", radius);
     insert_everywhere(mesh, start);
-    for (const double tolerance : {1e-3, 1e-5, 3e-6}) {
+    std::vector<double> tolerances;
+    for (int i = 2; i < argc; ++i) {
+        tolerances.push_back(std::strtod(argv[i], nullptr));
+    }
+    for (const double tolerance : tolerances.empty() ? std::vector<double>{1e-3, 1e-5, 3e-6} : tolerances) {
         refine_by_shape(mesh, start, tolerance);
     }
     return 0;

@@ -91,9 +91,52 @@ TEST_CASE("In space, triangles that meet an occluder dip into it by the toleranc
     CHECK(plain.report.edits[0].contact->deepest_dip > tolerance);
     CHECK(space.report.edits[0].contact->deepest_dip <= tolerance);
     CHECK(space.report.edits[0].contact->contact_vertices > 10);
+    CHECK(space.report.edits[0].refine->stopped_by == "tolerance");
+    CHECK(space.report.edits[0].refine->parted_edges == 0);
     // Both at once: never more than either tolerance.
     const ForgeResult both = forged_on_cpu(
         mesh, press(", 'refine': {'criterion': 'both', 'tolerance': {'shape': 0.02, 'space': 0.002}}"));
     CHECK(both.report.edits[0].contact->deepest_dip <= tolerance);
     CHECK(both.report.edits[0].refine->max_error <= 1);
+}
+
+TEST_CASE(
+    "In space, a plate or a knife that parts a sphere costs few vertices and no slivers, and is reported") {
+    const Mesh mesh = make_sample("icosphere", 642);
+    const double tolerance = 0.02;
+    for (const std::string rounding : {"0", "0.02"}) {
+        // Thin in x; beside it the sphere's tip goes on to z = 1.8, before it it stops at 1.2.
+        const std::string plate = "'shape': {'box': {'half': [0.02, 1.5, 0.5], 'rounding': " + rounding +
+                                  "}}, 'transform': {'translate': [0.013, 0, 1.7]}";
+        const ForgeResult result = forged_on_cpu(
+            mesh,
+            recipe_of(recipe_with(
+                plate, "{ 'kind': 'translate', 'handles': [ {'at': {'nearest': [0,0,1]}, 'by': [0,0,0.8]} "
+                       "], 'radius': 1.2, 'refine': {'criterion': 'space', 'tolerance': 0.02} }")));
+        REQUIRE(result.refined);
+        const RefineSummary& refine = *result.report.edits[0].refine;
+        INFO("rounding " << rounding << ": " << refine.added << " vertices, least angle "
+                         << refine.min_angle_after << ", parted " << refine.parted_edges);
+        CHECK(refine.stopped_by == "parting");
+        CHECK(refine.max_error <= tolerance);
+        CHECK(refine.parted_error > 10 * tolerance);
+        // Two lines of length 2, and some twenty vertices a tolerance.
+        CHECK(refine.added < 20 * 4 / tolerance / 4);
+        CHECK(refine.min_angle_after > 0.5);
+        REQUIRE(result.report.warnings.size() == 1);
+        CHECK(result.report.warnings[0].find("edits[0]: the surface goes past") == 0);
+        CHECK(facts_of(*result.refined).closed_manifold());
+        // What is torn lies within the tolerance of a line: no longer edge bridges it.
+        double steepest = 0;
+        for (const Triangle& t : result.refined->triangles) {
+            for (int i = 0; i < 3; ++i) {
+                const uint32_t a = t[i], b = t[(i + 1) % 3];
+                const double before =
+                    glm::distance(result.refined->positions[a], result.refined->positions[b]);
+                const double after = glm::distance(result.positions[a], result.positions[b]);
+                steepest = before > tolerance ? std::max(steepest, after / before) : steepest;
+            }
+        }
+        CHECK(steepest < 5);
+    }
 }
