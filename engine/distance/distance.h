@@ -34,6 +34,14 @@ struct DistanceSources {
 
 class GeodesicMarch;
 
+/// What an update of a solver did anew; the rest was copied.
+struct SolverUpdate {
+    bool whole = false;   ///< too much was different: everything
+    size_t triangles = 0; ///< that are new or were moved
+    size_t flipped = 0;   ///< triangles whose intrinsic edges were found anew
+    size_t vertices = 0;  ///< whose tables were made anew
+};
+
 /// Geodesic distances over a triangulated surface of any kind: edges with any number of faces, boundaries,
 /// several components, faces without area, isolated vertices. Prepared once per mesh and positions, O(mesh);
 /// a call costs what its region costs. Edge lengths alone matter, so place and scale of the mesh do not:
@@ -46,6 +54,16 @@ class GeodesicSolver {
     ~GeodesicSolver();
     GeodesicSolver(GeodesicSolver&&) noexcept;
     GeodesicSolver& operator=(GeodesicSolver&&) noexcept;
+
+    /// Brings the solver up to date after some of its mesh's triangles were divided or moved: `mesh` has the
+    /// former vertices, with their numbers, and then new ones; `roots` has for each of its triangles the
+    /// former one that it is or is part of (empty: the triangles are the former ones). What is still the same
+    /// is found and kept; it may be all or nothing. Distances are then those of a new solver up to rounding
+    /// (approximate ones also up to the choice among equally good intrinsic triangulations). Marches go on
+    /// over the surface that they began on. Not while another thread uses the solver.
+    /// @throws InputError as the constructor does; the solver is then as before.
+    SolverUpdate update(const Mesh& mesh, std::span<const Vec3> positions,
+                        std::span<const uint32_t> roots = {});
 
     /// Distance to the nearest source, eq. 10 of Bendels & Klein 2003, for all vertices not farther than
     /// `radius`; their values are bit for bit those of radius = infinity. Sources at vertices, on edges and

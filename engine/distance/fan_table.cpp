@@ -57,7 +57,7 @@ class Builder {
                 fill(static_cast<uint32_t>(v));
             }
         });
-        sum_lengths();
+        sum_lengths(table_);
         return std::move(table_);
     }
 
@@ -185,16 +185,6 @@ class Builder {
         }
     }
 
-    void sum_lengths() {
-        double sum = 0;
-        for (const double length : graph_.side_length) {
-            sum += length;
-            table_.longest = std::max(table_.longest, length);
-        }
-        table_.mean_length =
-            graph_.side_length.empty() ? 0 : sum / static_cast<double>(graph_.side_length.size());
-    }
-
     const TriangleGraph& graph_;
     std::span<const DirectionOrigin> origins_;
     std::vector<FanShape> shapes_;
@@ -207,6 +197,16 @@ class Builder {
 
 FanTable make_fan_table(const TriangleGraph& graph, std::span<const DirectionOrigin> origins) {
     return Builder(graph, origins).build();
+}
+
+void sum_lengths(FanTable& table) {
+    double sum = 0;
+    table.longest = 0;
+    for (const Spoke& spoke : table.spokes) {
+        sum += static_cast<double>(spoke.length);
+        table.longest = std::max(table.longest, static_cast<double>(spoke.length));
+    }
+    table.mean_length = table.spokes.empty() ? 0 : sum / static_cast<double>(table.spokes.size());
 }
 
 double corner_angle(const TriangleGraph& graph, uint32_t side) {

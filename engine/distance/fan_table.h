@@ -39,6 +39,9 @@ struct FanTable {
     double longest = 0;
 };
 
+/// Sets the lengths from the spokes.
+void sum_lengths(FanTable& table);
+
 /// `origins` give the direction 0 of closed fans; open ones count from their clockwise end.
 FanTable make_fan_table(const TriangleGraph& graph, std::span<const DirectionOrigin> origins);
 

@@ -5,6 +5,8 @@
 #include "engine/distance/front_seeds.h"
 #include "engine/distance/segment_seeds.h"
 #include "engine/distance/shortest_line.h"
+#include "engine/distance/surface_tables.h"
+#include "engine/distance/window_table.h"
 #include "engine/distance/workspace_pool.h"
 
 namespace anvil {
@@ -13,7 +15,7 @@ namespace {
 // Up to this many vertices an exact field takes some 20 ms: a drag starts at once.
 constexpr size_t small_region = 5000;
 
-TriangleGraph checked_graph(const Mesh& mesh, std::span<const Vec3> positions) {
+void check_positions(const Mesh& mesh, std::span<const Vec3> positions) {
     if (positions.size() != mesh.vertex_count()) {
         throw InputError("distances: " + std::to_string(positions.size()) + " positions for a mesh of " +
                          std::to_string(mesh.vertex_count()) + " vertices; give one position per vertex");
@@ -24,18 +26,17 @@ TriangleGraph checked_graph(const Mesh& mesh, std::span<const Vec3> positions) {
                              " is not finite; repair the mesh");
         }
     }
-    return make_triangle_graph(mesh.triangles, positions, number_by_place(mesh.triangles, positions));
+}
+
+SurfaceTables checked_tables(const Mesh& mesh, std::span<const Vec3> positions) {
+    check_positions(mesh, positions);
+    return make_surface_tables(mesh.triangles, positions);
 }
 
 void check_radius(double radius) {
     if (!(radius >= 0)) {
         throw InputError("distances: the radius is " + number_text(radius) + "; give a number >= 0");
     }
-}
-
-FanTable flipped_table(TriangleGraph graph) {
-    const std::vector<DirectionOrigin> origins = flip_to_delaunay(graph);
-    return make_fan_table(graph, origins);
 }
 
 /// The final part of a run, in world units and with the mesh's numbers.
@@ -68,7 +69,7 @@ SurfacePoint surface_point(const TriangleGraph& graph, std::span<const uint32_t>
 } // namespace
 
 struct GeodesicSolver::State {
-    explicit State(TriangleGraph prepared) : graph(std::move(prepared)), fans(flipped_table(graph)) {}
+    explicit State(SurfaceTables prepared) : tables(std::move(prepared)) {}
 
     DistanceField solve(const SourceParts& sources, double radius, DistanceMethod method) {
         check_radius(radius);
@@ -145,8 +146,13 @@ struct GeodesicSolver::State {
         return front_pool.borrow([&] { return VertexFronts(fans); });
     }
     std::unique_ptr<ExactWindows> borrow_windows() {
-        std::call_once(windows_prepared, [&] { window_table = make_window_table(graph); });
-        return window_pool.borrow([&] { return ExactWindows(graph, window_table); });
+        {
+            const std::scoped_lock lock(window_mutex);
+            if (!window_table) {
+                window_table = std::make_unique<WindowTable>(make_window_table(graph));
+            }
+        }
+        return window_pool.borrow([&] { return ExactWindows(graph, *window_table); });
     }
 
     bool deserves_exact(const DistanceField& field) const {
@@ -157,19 +163,44 @@ struct GeodesicSolver::State {
                });
     }
 
-    TriangleGraph graph; ///< as the mesh has it: sources refer to its triangles
-    FanTable fans;
-    std::once_flag windows_prepared;
-    WindowTable window_table;
+    SurfaceTables tables;
+    const TriangleGraph& graph = tables.graph;
+    const FanTable& fans = tables.fans;
+    std::mutex window_mutex;
+    std::unique_ptr<WindowTable> window_table; ///< made when first asked for, then kept
     WorkspacePool<VertexFronts> front_pool;
     WorkspacePool<ExactWindows> window_pool;
 };
 
 GeodesicSolver::GeodesicSolver(const Mesh& mesh, std::span<const Vec3> positions)
-    : state_(std::make_shared<State>(checked_graph(mesh, positions))) {}
+    : state_(std::make_shared<State>(checked_tables(mesh, positions))) {}
 GeodesicSolver::~GeodesicSolver() = default;
 GeodesicSolver::GeodesicSolver(GeodesicSolver&&) noexcept = default;
 GeodesicSolver& GeodesicSolver::operator=(GeodesicSolver&&) noexcept = default;
+
+SolverUpdate GeodesicSolver::update(const Mesh& mesh, std::span<const Vec3> positions,
+                                    std::span<const uint32_t> roots) {
+    check_positions(mesh, positions);
+    // Marches that are under way keep what they run on.
+    const bool shared = state_.use_count() > 1;
+    SurfaceTables tables = shared ? state_->tables : std::move(state_->tables);
+    std::unique_ptr<WindowTable> windows;
+    if (state_->window_table) {
+        windows = shared ? std::make_unique<WindowTable>(*state_->window_table)
+                         : std::move(state_->window_table);
+    }
+    SurfaceChange change;
+    if (!update_surface_tables(tables, mesh.triangles, positions, roots, change)) {
+        state_ = std::make_shared<State>(make_surface_tables(mesh.triangles, positions));
+        return {true, mesh.triangles.size(), mesh.triangles.size(), mesh.vertex_count()};
+    }
+    state_ = std::make_shared<State>(std::move(tables));
+    if (windows) {
+        update_window_table(*windows, state_->graph, change.vertices);
+        state_->window_table = std::move(windows);
+    }
+    return {false, change.triangles.size(), change.flipped, change.fans};
+}
 
 DistanceField GeodesicSolver::solve(std::span<const SurfacePoint> sources, double radius,
                                     DistanceMethod method) const {

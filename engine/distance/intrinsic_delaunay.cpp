@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <mutex>
+#include <numeric>
 
 namespace anvil {
 namespace {
@@ -14,7 +15,10 @@ constexpr double flip_threshold = -1e-7;
 
 class Flipper {
   public:
-    explicit Flipper(TriangleGraph& graph) : graph_(graph), origins_(graph.vertex_count()) {
+    explicit Flipper(TriangleGraph& graph)
+        : graph_(graph), origins_(graph.vertex_count()), side_before_(graph.corner_vertex.size()),
+          flipped_(graph.triangle_count()) {
+        std::iota(side_before_.begin(), side_before_.end(), 0U);
         for (uint32_t v = 0; v < graph.vertex_count(); ++v) {
             if (!graph.sides_leaving(v).empty()) {
                 origins_[v] = {graph.sides_leaving(v).front(), 0};
@@ -22,7 +26,7 @@ class Flipper {
         }
     }
 
-    std::vector<DirectionOrigin> run() {
+    IntrinsicDelaunay run() {
         find_candidates();
         // Flips end by theory; the bound is for lengths that rounding has made contradictory.
         size_t left = 50 * graph_.corner_vertex.size();
@@ -35,7 +39,7 @@ class Flipper {
             }
         }
         link_vertices(graph_, graph_.vertex_count());
-        return std::move(origins_);
+        return {std::move(origins_), std::move(flipped_)};
     }
 
   private:
@@ -112,6 +116,8 @@ class Flipper {
         const double diagonal = std::hypot(c.x - d.x, c.y + d.y);
         turn_origin(side, to_d, -std::atan2(d.y, d.x));
         turn_origin(twin, to_c, -std::atan2(c.y, base - c.x));
+        mark_flipped(side);
+        mark_flipped(twin);
 
         const uint32_t one = side - side % 3, two = twin - twin % 3;
         const std::array<uint32_t, 4> old_slots = {from_c, to_d, from_d, to_c};
@@ -120,9 +126,17 @@ class Flipper {
         graph_.corner_vertex[one] = graph_.corner_vertex[two + 1]; // D
         graph_.corner_vertex[two] = graph_.corner_vertex[one + 1]; // C
         graph_.side_length[one] = graph_.side_length[two] = diagonal;
+        side_before_[one] = side_before_[two] = no_index;
         graph_.across[one] = 2 * two;
         graph_.across[two] = 2 * one;
         candidates_.insert(candidates_.end(), new_slots.begin(), new_slots.end());
+    }
+
+    void mark_flipped(uint32_t side) {
+        const uint32_t before = side_before_[side];
+        if (before != no_index) {
+            flipped_[before / 3] |= static_cast<uint8_t>(1U << before % 3);
+        }
     }
 
     /// The flip takes `side` away: its vertex counts from the side next clockwise instead.
@@ -135,12 +149,13 @@ class Flipper {
 
     void move_sides(const std::array<uint32_t, 4>& from, const std::array<uint32_t, 4>& to) {
         struct Moved {
-            uint32_t vertex, across, before;
+            uint32_t vertex, across, before, side_before;
             double length;
         };
         std::array<Moved, 4> moved;
         for (size_t i = 0; i < 4; ++i) {
-            moved[i] = {graph_.from(from[i]), graph_.across[from[i]], no_index, graph_.side_length[from[i]]};
+            moved[i] = {graph_.from(from[i]), graph_.across[from[i]], no_index, side_before_[from[i]],
+                        graph_.side_length[from[i]]};
             for (uint32_t link = moved[i].across; link != no_index; link = graph_.across[link >> 1]) {
                 if (graph_.across[link >> 1] >> 1 == from[i]) {
                     moved[i].before = link >> 1;
@@ -152,6 +167,7 @@ class Flipper {
             graph_.corner_vertex[to[i]] = moved[i].vertex;
             graph_.side_length[to[i]] = moved[i].length;
             graph_.across[to[i]] = moved[i].across;
+            side_before_[to[i]] = moved[i].side_before;
         }
         for (size_t i = 0; i < 4; ++i) {
             if (moved[i].before != no_index) {
@@ -165,12 +181,14 @@ class Flipper {
 
     TriangleGraph& graph_;
     std::vector<DirectionOrigin> origins_;
+    std::vector<uint32_t> side_before_; ///< per side: what it was before all flips; no_index: made by one
+    std::vector<uint8_t> flipped_;
     std::vector<uint32_t> candidates_;
 };
 
 } // namespace
 
-std::vector<DirectionOrigin> flip_to_delaunay(TriangleGraph& graph) {
+IntrinsicDelaunay flip_to_delaunay(TriangleGraph& graph) {
     return Flipper(graph).run();
 }
 

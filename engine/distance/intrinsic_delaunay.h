@@ -12,10 +12,18 @@ struct DirectionOrigin {
     float direction = 0;
 };
 
+struct IntrinsicDelaunay {
+    /// One per vertex; direction 0 is the vertex's first leaving side before the flips.
+    std::vector<DirectionOrigin> origins;
+    /// Per triangle before the flips, bit k: its side k was flipped away, for ever or for a time. Triangles
+    /// that are joined by such sides hold the new triangles that lie in them whole, and no others.
+    std::vector<uint8_t> flipped;
+};
+
 /// Flips edges of `graph` by their lengths alone until the angles opposite each flippable edge sum to at most
 /// pi. Vertices and distances on the surface stay; edges with other than two like-oriented triangles stay.
 /// Slots of triangles are used anew, so sides keep no meaning; edges may become parallel, never loops.
-/// @return one origin per vertex, whose direction 0 is the vertex's first leaving side before the flips.
-std::vector<DirectionOrigin> flip_to_delaunay(TriangleGraph& graph);
+/// The same triangles give the same flips wherever they lie in a surface, if their slots keep their order.
+IntrinsicDelaunay flip_to_delaunay(TriangleGraph& graph);
 
 } // namespace anvil

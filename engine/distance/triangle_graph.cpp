@@ -14,8 +14,7 @@ double power_of_two_near(double extent) {
 }
 
 /// 0, 1 or 2.
-uint32_t shortest_side(const TriangleGraph& graph, uint32_t triangle) {
-    const double* length = &graph.side_length[3 * size_t{triangle}];
+uint32_t shortest_of(const double* length) {
     return static_cast<uint32_t>(std::min_element(length, length + 3) - length);
 }
 
@@ -25,17 +24,13 @@ void measure(TriangleGraph& graph, std::span<const Vec3> positions) {
     const double inverse = 1 / graph.unit;
     parallel_for(graph.triangle_count(), 1 << 14, [&](size_t begin, size_t end) {
         for (size_t t = begin; t < end; ++t) {
-            std::array<Vec3, 3> along;
+            std::array<Vec3, 3> corners;
             for (size_t k = 0; k < 3; ++k) {
-                const auto side = static_cast<uint32_t>(3 * t + k);
-                const Vec3& from = positions[graph.numbering.mesh_vertex[graph.from(side)]];
-                const Vec3& to = positions[graph.numbering.mesh_vertex[graph.to(side)]];
-                along[k] = (to - from) * inverse;
-                graph.side_length[side] = glm::length(along[k]);
+                corners[k] = positions[graph.numbering.mesh_vertex[graph.corner_vertex[3 * t + k]]];
             }
-            const uint32_t k = shortest_side(graph, static_cast<uint32_t>(t));
-            graph.shape[t] = {-glm::dot(along[k], along[(k + 2) % 3]),
-                              glm::length(glm::cross(along[k], along[(k + 2) % 3]))};
+            const MeasuredTriangle found = measured(corners, inverse);
+            std::copy(found.length.begin(), found.length.end(), graph.side_length.begin() + 3 * t);
+            graph.shape[t] = found.shape;
         }
     });
     for (const double length : graph.side_length) {
@@ -43,45 +38,11 @@ void measure(TriangleGraph& graph, std::span<const Vec3> positions) {
     }
 }
 
-/// One end of an edge: the other vertex, and the side.
-struct EdgeSide {
-    uint32_t other, side;
-};
-
 bool has_corner_twice(const TriangleGraph& graph, uint32_t side) {
     const uint32_t first = side - side % 3;
     const uint32_t a = graph.corner_vertex[first], b = graph.corner_vertex[first + 1],
                    c = graph.corner_vertex[first + 2];
     return a == b || b == c || c == a;
-}
-
-/// Joins into rings the sides that lead from `vertex` to higher vertices, so that each edge is done once.
-void link_edges_of(TriangleGraph& graph, uint32_t vertex, std::vector<EdgeSide>& ends) {
-    ends.clear();
-    for (const uint32_t side : graph.sides_leaving(vertex)) {
-        if (has_corner_twice(graph, side)) {
-            continue;
-        }
-        const uint32_t arriving = TriangleGraph::previous(side);
-        if (graph.to(side) > vertex) {
-            ends.push_back({graph.to(side), side});
-        }
-        if (graph.from(arriving) > vertex) {
-            ends.push_back({graph.from(arriving), arriving});
-        }
-    }
-    std::sort(ends.begin(), ends.end(), [](const EdgeSide& a, const EdgeSide& b) {
-        return a.other != b.other ? a.other < b.other : a.side < b.side;
-    });
-    for (size_t begin = 0, end = 0; begin < ends.size(); begin = end) {
-        while (end < ends.size() && ends[end].other == ends[begin].other) {
-            ++end;
-        }
-        for (size_t i = begin; i < end && end - begin > 1; ++i) {
-            const uint32_t here = ends[i].side, there = ends[i + 1 < end ? i + 1 : begin].side;
-            graph.across[here] = 2 * there + (graph.from(here) == graph.from(there) ? 1 : 0);
-        }
-    }
 }
 
 void link_edges(TriangleGraph& graph) {
@@ -96,10 +57,32 @@ void link_edges(TriangleGraph& graph) {
 
 } // namespace
 
+double unit_of(std::span<const Vec3> positions) {
+    Box box;
+    for (const Vec3& p : positions) {
+        box.include(p);
+    }
+    return power_of_two_near(box.diagonal());
+}
+
+MeasuredTriangle measured(const std::array<Vec3, 3>& corners, double inverse_unit) {
+    MeasuredTriangle result;
+    std::array<Vec3, 3> along;
+    for (size_t k = 0; k < 3; ++k) {
+        along[k] = (corners[(k + 1) % 3] - corners[k]) * inverse_unit;
+        result.length[k] = glm::length(along[k]);
+    }
+    const uint32_t k = shortest_of(result.length.data());
+    result.shape = {-glm::dot(along[k], along[(k + 2) % 3]),
+                    glm::length(glm::cross(along[k], along[(k + 2) % 3]))};
+    return result;
+}
+
 PlanePoint direction_of_apex(const TriangleGraph& graph, uint32_t side) {
-    const uint32_t triangle = side / 3, shortest = shortest_side(graph, triangle);
+    const uint32_t triangle = side / 3;
     const TriangleGraph::Shape& shape = graph.shape[triangle];
     const double* length = &graph.side_length[3 * size_t{triangle}];
+    const uint32_t shortest = shortest_of(length);
     // The dot product at each corner from the one at the start of the shortest side, where none cancels.
     const uint32_t corner = (side % 3 + 3 - shortest) % 3;
     const double next_to_it = corner == 0 ? 0 : length[corner == 1 ? shortest : (shortest + 2) % 3];
@@ -124,15 +107,44 @@ void link_vertices(TriangleGraph& graph, size_t vertex_count) {
     }
 }
 
+/// Joins the sides of each edge into a ring; each edge is done at its lower vertex, once.
+void link_edges_of(TriangleGraph& graph, uint32_t vertex, std::vector<EdgeSide>& ends) {
+    ends.clear();
+    for (const uint32_t side : graph.sides_leaving(vertex)) {
+        if (has_corner_twice(graph, side)) {
+            continue;
+        }
+        const uint32_t arriving = TriangleGraph::previous(side);
+        if (graph.to(side) > vertex) {
+            ends.push_back({graph.to(side), side});
+        }
+        if (graph.from(arriving) > vertex) {
+            ends.push_back({graph.from(arriving), arriving});
+        }
+    }
+    std::sort(ends.begin(), ends.end(), [](const EdgeSide& a, const EdgeSide& b) {
+        return a.other != b.other ? a.other < b.other : a.side < b.side;
+    });
+    for (size_t begin = 0, end = 0; begin < ends.size(); begin = end) {
+        while (end < ends.size() && ends[end].other == ends[begin].other) {
+            ++end;
+        }
+        if (end - begin == 1) {
+            graph.across[ends[begin].side] = no_index;
+            continue;
+        }
+        for (size_t i = begin; i < end; ++i) {
+            const uint32_t here = ends[i].side, there = ends[i + 1 < end ? i + 1 : begin].side;
+            graph.across[here] = 2 * there + (graph.from(here) == graph.from(there) ? 1 : 0);
+        }
+    }
+}
+
 TriangleGraph make_triangle_graph(std::span<const Triangle> triangles, std::span<const Vec3> positions,
                                   Numbering numbering) {
     TriangleGraph graph;
     graph.numbering = std::move(numbering);
-    Box box;
-    for (const Vec3& p : positions) {
-        box.include(p);
-    }
-    graph.unit = power_of_two_near(box.diagonal());
+    graph.unit = unit_of(positions);
     graph.corner_vertex.resize(3 * triangles.size());
     for (size_t t = 0; t < triangles.size(); ++t) {
         for (size_t k = 0; k < 3; ++k) {

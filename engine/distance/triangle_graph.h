@@ -65,6 +65,25 @@ PlanePoint direction_of_apex(const TriangleGraph& graph, uint32_t side);
 /// Lists `leaving` anew from corner_vertex.
 void link_vertices(TriangleGraph& graph, size_t vertex_count);
 
+/// One end of an edge: the other vertex, and the side.
+struct EdgeSide {
+    uint32_t other, side;
+};
+
+/// Sets `across` of the edges from `vertex` to higher vertices, from `leaving`. Triangles with a corner twice
+/// are passed over. `scratch` is kept between calls for its memory alone.
+void link_edges_of(TriangleGraph& graph, uint32_t vertex, std::vector<EdgeSide>& scratch);
+
+/// What is measured of a triangle in space.
+struct MeasuredTriangle {
+    std::array<double, 3> length; ///< of the sides from corners 0, 1, 2
+    TriangleGraph::Shape shape;
+};
+MeasuredTriangle measured(const std::array<Vec3, 3>& corners, double inverse_unit);
+
+/// The unit for a surface within the box of these positions.
+double unit_of(std::span<const Vec3> positions);
+
 /// Every index of `triangles` is below positions.size(); positions are finite.
 TriangleGraph make_triangle_graph(std::span<const Triangle> triangles, std::span<const Vec3> positions,
                                   Numbering numbering);

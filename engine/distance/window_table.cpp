@@ -49,43 +49,74 @@ uint32_t link_across(const TriangleGraph& graph, uint32_t side) {
            ((link & 1) != 0 ? WindowTable::same_way : 0);
 }
 
-} // namespace
+void set_face(WindowTable& table, const TriangleGraph& graph, uint32_t triangle) {
+    WindowTable::Face& face = table.faces[triangle];
+    for (uint32_t side = 3 * triangle; side < 3 * triangle + 3; ++side) {
+        const PlanePoint along = direction_of_apex(graph, side);
+        face.length[side % 3] = graph.side_length[side];
+        face.along[side % 3] = along;
+        face.vertex[side % 3] = graph.from(side);
+        face.across[side % 3] = link_across(graph, side);
+        table.angle[side] = std::atan2(along.y, along.x);
+    }
+}
 
-WindowTable make_window_table(const TriangleGraph& graph) {
-    WindowTable table;
-    const size_t sides = graph.corner_vertex.size();
-    table.faces.resize(graph.triangle_count());
-    table.angle.resize(sides);
-    parallel_for(graph.triangle_count(), 1 << 13, [&](size_t begin, size_t end) {
-        for (auto side = static_cast<uint32_t>(3 * begin); side < 3 * end; ++side) {
-            WindowTable::Face& face = table.faces[side / 3];
-            const PlanePoint along = direction_of_apex(graph, side);
-            face.length[side % 3] = graph.side_length[side];
-            face.along[side % 3] = along;
-            face.vertex[side % 3] = graph.from(side);
-            face.across[side % 3] = link_across(graph, side);
-            table.angle[side] = std::atan2(along.y, along.x);
-        }
-    });
-    table.bend.resize(graph.vertex_count());
-    table.total.resize(graph.vertex_count());
-    parallel_for(graph.vertex_count(), 1 << 12, [&](size_t begin, size_t end) {
-        for (size_t v = begin; v < end; ++v) {
-            const auto vertex = static_cast<uint32_t>(v);
-            double total = 0;
-            for (const uint32_t side : graph.sides_leaving(vertex)) {
-                total += table.angle[side];
-            }
-            table.total[v] = total;
-            table.bend[v] = bend_at(graph, vertex, total);
-        }
-    });
+void set_vertex(WindowTable& table, const TriangleGraph& graph, uint32_t vertex) {
+    double total = 0;
+    for (const uint32_t side : graph.sides_leaving(vertex)) {
+        total += table.angle[side];
+    }
+    table.total[vertex] = total;
+    table.bend[vertex] = bend_at(graph, vertex, total);
+}
+
+void set_mean_length(WindowTable& table, const TriangleGraph& graph) {
     double sum = 0;
     for (const double length : graph.side_length) {
         sum += length;
     }
+    const size_t sides = graph.side_length.size();
     table.mean_length = sides > 0 ? sum / static_cast<double>(sides) : 0;
+}
+
+void resize(WindowTable& table, const TriangleGraph& graph) {
+    table.faces.resize(graph.triangle_count());
+    table.angle.resize(graph.corner_vertex.size());
+    table.bend.resize(graph.vertex_count());
+    table.total.resize(graph.vertex_count());
+}
+
+} // namespace
+
+WindowTable make_window_table(const TriangleGraph& graph) {
+    WindowTable table;
+    resize(table, graph);
+    parallel_for(graph.triangle_count(), 1 << 13, [&](size_t begin, size_t end) {
+        for (size_t t = begin; t < end; ++t) {
+            set_face(table, graph, static_cast<uint32_t>(t));
+        }
+    });
+    parallel_for(graph.vertex_count(), 1 << 12, [&](size_t begin, size_t end) {
+        for (size_t v = begin; v < end; ++v) {
+            set_vertex(table, graph, static_cast<uint32_t>(v));
+        }
+    });
+    set_mean_length(table, graph);
     return table;
+}
+
+void update_window_table(WindowTable& table, const TriangleGraph& graph,
+                         std::span<const uint32_t> changed_vertices) {
+    resize(table, graph);
+    for (const uint32_t v : changed_vertices) {
+        for (const uint32_t side : graph.sides_leaving(v)) {
+            set_face(table, graph, side / 3);
+        }
+    }
+    for (const uint32_t v : changed_vertices) {
+        set_vertex(table, graph, v);
+    }
+    set_mean_length(table, graph);
 }
 
 } // namespace anvil

@@ -40,4 +40,9 @@ struct WindowTable {
 
 WindowTable make_window_table(const TriangleGraph& graph);
 
+/// Brings the table up to date where triangles around these vertices have changed; the others are as before,
+/// and keep their numbers.
+void update_window_table(WindowTable& table, const TriangleGraph& graph,
+                         std::span<const uint32_t> changed_vertices);
+
 } // namespace anvil
