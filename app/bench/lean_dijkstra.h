@@ -21,8 +21,8 @@ class LeanDijkstra {
             around.clear();
             for (const uint32_t side : graph.sides_leaving(v)) {
                 const uint32_t arriving = TriangleGraph::previous(side);
-                around.emplace_back(graph.to(side), graph.side_length[side]);
-                around.emplace_back(graph.from(arriving), graph.side_length[arriving]);
+                around.emplace_back(graph.to(side), graph.length(side));
+                around.emplace_back(graph.from(arriving), graph.length(arriving));
             }
             std::sort(around.begin(), around.end());
             around.erase(std::unique(around.begin(), around.end(),

@@ -15,20 +15,23 @@ struct Corner {
     double cosine = 1, sine = 0;
 };
 
-Corner corner_at(const TriangleGraph& graph, uint32_t side) {
-    const double base = graph.side_length[side];
-    const double left = graph.side_length[TriangleGraph::previous(side)];
+Corner corner_between(double base, double left, double opposite) {
     if (!(base > 0 && left > 0)) {
         return {};
     }
-    const PlanePoint apex = apex_over(base, left, graph.side_length[TriangleGraph::next(side)]);
+    const PlanePoint apex = apex_over(base, left, opposite);
     const double length = std::hypot(apex.x, apex.y);
     return {apex.x / length, apex.y / length};
 }
 
+Corner corner_at(const IntrinsicGraph& graph, uint32_t side) {
+    return corner_between(graph.side_length[side], graph.side_length[TriangleLinks::previous(side)],
+                          graph.side_length[TriangleLinks::next(side)]);
+}
+
 class Builder {
   public:
-    Builder(const TriangleGraph& graph, std::span<const DirectionOrigin> origins)
+    Builder(const IntrinsicGraph& graph, std::span<const DirectionOrigin> origins)
         : graph_(graph), origins_(origins), shapes_(graph.vertex_count()),
           corners_(graph.corner_vertex.size()), directions_(graph.corner_vertex.size()) {}
 
@@ -185,7 +188,7 @@ class Builder {
         }
     }
 
-    const TriangleGraph& graph_;
+    const IntrinsicGraph& graph_;
     std::span<const DirectionOrigin> origins_;
     std::vector<FanShape> shapes_;
     std::vector<Corner> corners_;
@@ -195,7 +198,7 @@ class Builder {
 
 } // namespace
 
-FanTable make_fan_table(const TriangleGraph& graph, std::span<const DirectionOrigin> origins) {
+FanTable make_fan_table(const IntrinsicGraph& graph, std::span<const DirectionOrigin> origins) {
     return Builder(graph, origins).build();
 }
 
@@ -210,11 +213,12 @@ void sum_lengths(FanTable& table) {
 }
 
 double corner_angle(const TriangleGraph& graph, uint32_t side) {
-    const Corner corner = corner_at(graph, side);
+    const Corner corner = corner_between(graph.length(side), graph.length(TriangleGraph::previous(side)),
+                                         graph.length(TriangleGraph::next(side)));
     return std::atan2(corner.sine, corner.cosine);
 }
 
-FanShape fan_shape(const TriangleGraph& graph, uint32_t vertex, uint32_t wished_first) {
+FanShape fan_shape(const TriangleLinks& graph, uint32_t vertex, uint32_t wished_first) {
     const size_t count = graph.sides_leaving(vertex).size();
     if (wished_first == no_index) {
         return {};

@@ -43,7 +43,7 @@ struct FanTable {
 void sum_lengths(FanTable& table);
 
 /// `origins` give the direction 0 of closed fans; open ones count from their clockwise end.
-FanTable make_fan_table(const TriangleGraph& graph, std::span<const DirectionOrigin> origins);
+FanTable make_fan_table(const IntrinsicGraph& graph, std::span<const DirectionOrigin> origins);
 
 /// Angle of the corner that `side` leaves; 0 where a side next to it has no length.
 double corner_angle(const TriangleGraph& graph, uint32_t side);
@@ -54,6 +54,6 @@ struct FanShape {
     uint32_t first =
         no_index; ///< leaving side: the wished one of a closed fan, the clockwise end of an open one
 };
-FanShape fan_shape(const TriangleGraph& graph, uint32_t vertex, uint32_t wished_first);
+FanShape fan_shape(const TriangleLinks& graph, uint32_t vertex, uint32_t wished_first);
 
 } // namespace anvil

@@ -124,15 +124,14 @@ class FanUpdate {
         for (uint32_t i = 0; i < triangles_.size(); ++i) {
             local_triangle[triangles_[i]] = i;
         }
-        part_ = TriangleGraph();
-        part_.unit = graph_.unit;
+        part_ = IntrinsicGraph();
         for (const uint32_t triangle : triangles_) {
             for (uint32_t side = 3 * triangle; side < 3 * triangle + 3; ++side) {
                 const uint32_t link = graph_.across[side];
                 const uint32_t other = link == no_index ? no_index : link >> 1;
                 const uint32_t there = link == no_index ? no_index : local_triangle[other / 3];
                 part_.corner_vertex.push_back(local_vertex(graph_.from(side)));
-                part_.side_length.push_back(graph_.side_length[side]);
+                part_.side_length.push_back(graph_.length(side));
                 part_.across.push_back(there == no_index ? no_index : 2 * (3 * there + other % 3) + (link & 1));
             }
         }
@@ -232,7 +231,7 @@ class FanUpdate {
     NumberSet torn_;
     NumberSet centre_{0}; ///< vertices whose spokes are made anew
     std::vector<uint32_t> triangles_, vertices_; ///< of the part, ascending
-    TriangleGraph part_;
+    IntrinsicGraph part_;
 };
 
 } // namespace

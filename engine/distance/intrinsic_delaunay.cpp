@@ -15,7 +15,7 @@ constexpr double flip_threshold = -1e-7;
 
 class Flipper {
   public:
-    explicit Flipper(TriangleGraph& graph)
+    explicit Flipper(IntrinsicGraph& graph)
         : graph_(graph), origins_(graph.vertex_count()), side_before_(graph.corner_vertex.size()),
           flipped_(graph.triangle_count()) {
         std::iota(side_before_.begin(), side_before_.end(), 0U);
@@ -179,7 +179,7 @@ class Flipper {
         }
     }
 
-    TriangleGraph& graph_;
+    IntrinsicGraph& graph_;
     std::vector<DirectionOrigin> origins_;
     std::vector<uint32_t> side_before_; ///< per side: what it was before all flips; no_index: made by one
     std::vector<uint8_t> flipped_;
@@ -188,7 +188,18 @@ class Flipper {
 
 } // namespace
 
-IntrinsicDelaunay flip_to_delaunay(TriangleGraph& graph) {
+IntrinsicGraph by_lengths(const TriangleGraph& graph) {
+    IntrinsicGraph result{static_cast<const TriangleLinks&>(graph),
+                          std::vector<double>(graph.corner_vertex.size())};
+    parallel_for(graph.corner_vertex.size(), 1 << 14, [&](size_t begin, size_t end) {
+        for (size_t side = begin; side < end; ++side) {
+            result.side_length[side] = graph.length(static_cast<uint32_t>(side));
+        }
+    });
+    return result;
+}
+
+IntrinsicDelaunay flip_to_delaunay(IntrinsicGraph& graph) {
     return Flipper(graph).run();
 }
 

@@ -12,6 +12,14 @@ struct DirectionOrigin {
     float direction = 0;
 };
 
+/// A surface by its lengths alone. Edges may be parallel.
+struct IntrinsicGraph : TriangleLinks {
+    std::vector<double> side_length; ///< 3 per triangle
+};
+
+/// The same triangles, by their lengths.
+IntrinsicGraph by_lengths(const TriangleGraph& graph);
+
 struct IntrinsicDelaunay {
     /// One per vertex; direction 0 is the vertex's first leaving side before the flips.
     std::vector<DirectionOrigin> origins;
@@ -24,6 +32,6 @@ struct IntrinsicDelaunay {
 /// pi. Vertices and distances on the surface stay; edges with other than two like-oriented triangles stay.
 /// Slots of triangles are used anew, so sides keep no meaning; edges may become parallel, never loops.
 /// The same triangles give the same flips wherever they lie in a surface, if their slots keep their order.
-IntrinsicDelaunay flip_to_delaunay(TriangleGraph& graph);
+IntrinsicDelaunay flip_to_delaunay(IntrinsicGraph& graph);
 
 } // namespace anvil

@@ -75,7 +75,7 @@ class Descent {
     /// The best place on a side, seen from `at` in its frame: in line with the source where the distances of
     /// its ends put it, or an end.
     void look_at(uint32_t side, const PlanePoint& at) {
-        const double length = graph_.side_length[side];
+        const double length = graph_.length(side);
         const double start = distances_[graph_.from(side)], end = distances_[graph_.to(side)];
         offer(std::hypot(at.x, at.y) + start, side / 3, at_vertex(graph_.from(side)), false);
         offer(std::hypot(at.x - length, at.y) + end, side / 3, at_vertex(graph_.to(side)), false);
@@ -130,7 +130,7 @@ std::vector<LineStep> edge_chain(const TriangleGraph& graph, std::span<const dou
             const uint32_t arriving = TriangleGraph::previous(side);
             for (const auto& [next, edge] :
                  {std::pair{graph.to(side), side}, {graph.from(arriving), arriving}}) {
-                const double further = length + graph.side_length[edge];
+                const double further = length + graph.length(edge);
                 const auto known = reached.find(next);
                 if (distances[next] < infinity &&
                     (known == reached.end() || further < known->second.length)) {
@@ -198,7 +198,7 @@ std::optional<std::vector<Crossing>> joint(const TriangleGraph& graph, const Pla
                                direction_to(graph, vertex, next.triangle, next.end), infinity);
         return route ? std::optional(std::move(route->crossings)) : std::nullopt;
     }
-    if (!(graph.side_length[step.end.base] > 0)) {
+    if (!(graph.length(step.end.base) > 0)) {
         return std::nullopt;
     }
     return std::vector<Crossing>{crossing_at(graph, step.end.base, step.triangle, next.triangle)};

@@ -53,9 +53,9 @@ PlanePoint laid_point(const TriangleGraph& graph, const PlacedPoint& point, uint
     uint32_t base = first;
     // A base of some length, so that its frame has a direction.
     for (uint32_t side = first; side < first + 3; ++side) {
-        base = graph.side_length[side] > graph.side_length[base] ? side : base;
+        base = graph.length(side) > graph.length(base) ? side : base;
     }
-    if (!(graph.side_length[base] > 0)) {
+    if (!(graph.length(base) > 0)) {
         return laid.corners[0];
     }
     const PlanePoint local = place_in(graph, point, base).value_or(PlanePoint{});

@@ -65,8 +65,8 @@ PlacedPoint placed(const TriangleGraph& graph, const SurfacePoint& point, const 
 }
 
 std::array<PlanePoint, 3> laid_out(const TriangleGraph& graph, uint32_t base) {
-    const double length = graph.side_length[base];
-    const double left = graph.side_length[TriangleGraph::previous(base)];
+    const double length = graph.length(base);
+    const double left = graph.length(TriangleGraph::previous(base));
     const PlanePoint along = direction_of_apex(graph, base);
     return {PlanePoint{0, 0}, PlanePoint{length, 0}, PlanePoint{left * along.x, left * along.y}};
 }

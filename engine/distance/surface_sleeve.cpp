@@ -20,7 +20,7 @@ uint32_t side_leaving(const TriangleGraph& graph, uint32_t vertex, uint32_t tria
 
 /// Angle of the triangle at the start of `side`.
 double corner_angle(const TriangleGraph& graph, uint32_t side) {
-    if (!(graph.side_length[side] > 0)) {
+    if (!(graph.length(side) > 0)) {
         return 0;
     }
     const PlanePoint apex = laid_out(graph, side)[2];
@@ -65,7 +65,7 @@ class FanSearch {
 
     /// Into every other triangle at the edge of `side`; none unfolds over an edge without length.
     void cross(uint32_t side, double angle, uint32_t before) {
-        if (!(graph_.side_length[side] > 0)) {
+        if (!(graph_.length(side) > 0)) {
             return;
         }
         for (const LikeSide& like : sides_of_edge(graph_, side)) {
@@ -208,7 +208,7 @@ CornerDirection direction_to(const TriangleGraph& graph, uint32_t vertex, uint32
                              const PlacedPoint& point) {
     const uint32_t leaving = side_leaving(graph, vertex, triangle);
     const PlanePoint p = place_in(graph, point, leaving).value_or(PlanePoint{});
-    return {triangle, graph.side_length[leaving] > 0 ? std::atan2(std::max(p.y, 0.0), p.x) : 0};
+    return {triangle, graph.length(leaving) > 0 ? std::atan2(std::max(p.y, 0.0), p.x) : 0};
 }
 
 std::optional<FanRoute> fan_route(const TriangleGraph& graph, uint32_t vertex, const CornerDirection& from,

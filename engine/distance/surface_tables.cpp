@@ -25,6 +25,7 @@ class GraphUpdate {
             return false;
         }
         number_vertices();
+        move_vertices();
         if (!number_triangles()) {
             return false;
         }
@@ -70,23 +71,28 @@ class GraphUpdate {
         return graph_.numbering.new_triangle[roots_.empty() ? t : roots_[t]];
     }
 
+    /// Moves the vertices to their places; which were elsewhere?
+    void move_vertices() {
+        const double inverse = 1 / graph_.unit;
+        graph_.places.resize(positions_.size());
+        moved_.resize(positions_.size(), 1);
+        parallel_for(positions_.size(), 1 << 13, [&](size_t begin, size_t end) {
+            for (size_t v = begin; v < end; ++v) {
+                const Vec3 place = positions_[graph_.numbering.mesh_vertex[v]] * inverse;
+                moved_[v] = v >= former_vertices_ || place != graph_.places[v] ? 1 : 0;
+                graph_.places[v] = place;
+            }
+        });
+    }
+
     bool is_as_before(size_t t, uint32_t slot) const {
         for (size_t k = 0; k < 3; ++k) {
-            if (graph_.numbering.new_vertex[triangles_[t][k]] != graph_.corner_vertex[3 * size_t{slot} + k]) {
+            const uint32_t vertex = graph_.numbering.new_vertex[triangles_[t][k]];
+            if (vertex != graph_.corner_vertex[3 * size_t{slot} + k] || moved_[vertex] != 0) {
                 return false;
             }
         }
-        const MeasuredTriangle found = measure(t);
-        return std::equal(found.length.begin(), found.length.end(),
-                          graph_.side_length.begin() + 3 * static_cast<std::ptrdiff_t>(slot)) &&
-               found.shape.dot == graph_.shape[slot].dot &&
-               found.shape.double_area == graph_.shape[slot].double_area;
-    }
-
-    MeasuredTriangle measure(size_t t) const {
-        const Triangle& corners = triangles_[t];
-        return measured({positions_[corners[0]], positions_[corners[1]], positions_[corners[2]]},
-                        1 / graph_.unit);
+        return true;
     }
 
     /// Triangles that stay keep their slots, others take those of their roots and then new ones.
@@ -166,23 +172,17 @@ class GraphUpdate {
 
     void write_triangles() {
         graph_.corner_vertex.resize(3 * triangles_.size());
-        graph_.side_length.resize(3 * triangles_.size());
         graph_.across.resize(3 * triangles_.size(), no_index);
-        graph_.shape.resize(triangles_.size());
         for (size_t i = 0; i < changed_.size(); ++i) {
-            const size_t first = 3 * size_t{changed_[i]};
-            const MeasuredTriangle found = measure(mesh_triangle_[i]);
-            for (size_t k = 0; k < 3; ++k) {
+            const uint32_t first = 3 * changed_[i];
+            for (uint32_t k = 0; k < 3; ++k) {
                 graph_.corner_vertex[first + k] =
                     graph_.numbering.new_vertex[triangles_[mesh_triangle_[i]][k]];
-                graph_.side_length[first + k] = found.length[k];
                 graph_.across[first + k] = no_index;
             }
-            graph_.shape[changed_[i]] = found.shape;
-        }
-        graph_.longest_side = 0;
-        for (const double length : graph_.side_length) {
-            graph_.longest_side = std::max(graph_.longest_side, length);
+            for (uint32_t k = 0; k < 3; ++k) {
+                graph_.longest_side = std::max(graph_.longest_side, graph_.length(first + k));
+            }
         }
     }
 
@@ -230,6 +230,7 @@ class GraphUpdate {
     std::span<const Vec3> positions_;
     std::span<const uint32_t> roots_;
     size_t former_vertices_, former_triangles_;
+    std::vector<uint8_t> moved_;           ///< per vertex
     std::vector<uint32_t> changed_before_; ///< slots whose triangle is another now
     std::vector<uint32_t> changed_;        ///< these and the new ones
     std::vector<uint32_t> mesh_triangle_;  ///< of each that changed
@@ -241,7 +242,7 @@ class GraphUpdate {
 SurfaceTables make_surface_tables(std::span<const Triangle> triangles, std::span<const Vec3> positions) {
     SurfaceTables tables;
     tables.graph = make_triangle_graph(triangles, positions, number_by_place(triangles, positions));
-    TriangleGraph cut = tables.graph;
+    IntrinsicGraph cut = by_lengths(tables.graph);
     IntrinsicDelaunay delaunay = flip_to_delaunay(cut);
     tables.fans = make_fan_table(cut, delaunay.origins);
     tables.flipped = std::move(delaunay.flipped);

@@ -2,6 +2,8 @@
 
 #include "engine/core/parallel_for.h"
 
+#include <mutex>
+
 namespace anvil {
 namespace {
 
@@ -13,39 +15,33 @@ double power_of_two_near(double extent) {
     return std::ldexp(1.0, std::clamp(std::ilogb(extent), -1000, 1000));
 }
 
-/// 0, 1 or 2.
-uint32_t shortest_of(const double* length) {
-    return static_cast<uint32_t>(std::min_element(length, length + 3) - length);
-}
-
-void measure(TriangleGraph& graph, std::span<const Vec3> positions) {
-    graph.side_length.resize(graph.corner_vertex.size());
-    graph.shape.resize(graph.triangle_count());
+void set_places(TriangleGraph& graph, std::span<const Vec3> positions) {
     const double inverse = 1 / graph.unit;
-    parallel_for(graph.triangle_count(), 1 << 14, [&](size_t begin, size_t end) {
-        for (size_t t = begin; t < end; ++t) {
-            std::array<Vec3, 3> corners;
-            for (size_t k = 0; k < 3; ++k) {
-                corners[k] = positions[graph.numbering.mesh_vertex[graph.corner_vertex[3 * t + k]]];
-            }
-            const MeasuredTriangle found = measured(corners, inverse);
-            std::copy(found.length.begin(), found.length.end(), graph.side_length.begin() + 3 * t);
-            graph.shape[t] = found.shape;
+    graph.places.resize(positions.size());
+    parallel_for(positions.size(), 1 << 14, [&](size_t begin, size_t end) {
+        for (size_t v = begin; v < end; ++v) {
+            graph.places[v] = positions[graph.numbering.mesh_vertex[v]] * inverse;
         }
     });
-    for (const double length : graph.side_length) {
-        graph.longest_side = std::max(graph.longest_side, length);
-    }
+    std::mutex mutex;
+    parallel_for(graph.corner_vertex.size(), 1 << 14, [&](size_t begin, size_t end) {
+        double longest = 0;
+        for (size_t side = begin; side < end; ++side) {
+            longest = std::max(longest, graph.length(static_cast<uint32_t>(side)));
+        }
+        const std::scoped_lock lock(mutex);
+        graph.longest_side = std::max(graph.longest_side, longest);
+    });
 }
 
-bool has_corner_twice(const TriangleGraph& graph, uint32_t side) {
+bool has_corner_twice(const TriangleLinks& graph, uint32_t side) {
     const uint32_t first = side - side % 3;
     const uint32_t a = graph.corner_vertex[first], b = graph.corner_vertex[first + 1],
                    c = graph.corner_vertex[first + 2];
     return a == b || b == c || c == a;
 }
 
-void link_edges(TriangleGraph& graph) {
+void link_edges(TriangleLinks& graph) {
     graph.across.assign(graph.corner_vertex.size(), no_index);
     parallel_for(graph.vertex_count(), 1 << 12, [&](size_t begin, size_t end) {
         std::vector<EdgeSide> ends;
@@ -65,33 +61,36 @@ double unit_of(std::span<const Vec3> positions) {
     return power_of_two_near(box.diagonal());
 }
 
-MeasuredTriangle measured(const std::array<Vec3, 3>& corners, double inverse_unit) {
-    MeasuredTriangle result;
+MeasuredTriangle measured(const TriangleGraph& graph, uint32_t triangle) {
+    MeasuredTriangle result{};
     std::array<Vec3, 3> along;
-    for (size_t k = 0; k < 3; ++k) {
-        along[k] = (corners[(k + 1) % 3] - corners[k]) * inverse_unit;
+    for (uint32_t k = 0; k < 3; ++k) {
+        const uint32_t side = 3 * triangle + k;
+        along[k] = graph.places[graph.to(side)] - graph.places[graph.from(side)];
         result.length[k] = glm::length(along[k]);
     }
-    const uint32_t k = shortest_of(result.length.data());
-    result.shape = {-glm::dot(along[k], along[(k + 2) % 3]),
-                    glm::length(glm::cross(along[k], along[(k + 2) % 3]))};
+    const auto shortest = std::min_element(result.length.begin(), result.length.end());
+    const auto k = static_cast<uint32_t>(shortest - result.length.begin());
+    result.shortest = k;
+    result.dot = -glm::dot(along[k], along[(k + 2) % 3]);
+    result.double_area = glm::length(glm::cross(along[k], along[(k + 2) % 3]));
     return result;
 }
 
-PlanePoint direction_of_apex(const TriangleGraph& graph, uint32_t side) {
-    const uint32_t triangle = side / 3;
-    const TriangleGraph::Shape& shape = graph.shape[triangle];
-    const double* length = &graph.side_length[3 * size_t{triangle}];
-    const uint32_t shortest = shortest_of(length);
+PlanePoint MeasuredTriangle::direction_of_apex(uint32_t k) const {
     // The dot product at each corner from the one at the start of the shortest side, where none cancels.
-    const uint32_t corner = (side % 3 + 3 - shortest) % 3;
+    const uint32_t corner = (k + 3 - shortest) % 3;
     const double next_to_it = corner == 0 ? 0 : length[corner == 1 ? shortest : (shortest + 2) % 3];
-    const double dot = corner == 0 ? shape.dot : next_to_it * next_to_it - shape.dot;
-    const double size = std::hypot(dot, shape.double_area);
-    return size > 0 ? PlanePoint{dot / size, shape.double_area / size} : PlanePoint{1, 0};
+    const double here = corner == 0 ? dot : next_to_it * next_to_it - dot;
+    const double size = std::hypot(here, double_area);
+    return size > 0 ? PlanePoint{here / size, double_area / size} : PlanePoint{1, 0};
 }
 
-void link_vertices(TriangleGraph& graph, size_t vertex_count) {
+PlanePoint direction_of_apex(const TriangleGraph& graph, uint32_t side) {
+    return measured(graph, side / 3).direction_of_apex(side % 3);
+}
+
+void link_vertices(TriangleLinks& graph, size_t vertex_count) {
     std::vector<uint32_t>& begin = graph.leaving_begin;
     begin.assign(vertex_count + 1, 0);
     for (const uint32_t v : graph.corner_vertex) {
@@ -108,7 +107,7 @@ void link_vertices(TriangleGraph& graph, size_t vertex_count) {
 }
 
 /// Joins the sides of each edge into a ring; each edge is done at its lower vertex, once.
-void link_edges_of(TriangleGraph& graph, uint32_t vertex, std::vector<EdgeSide>& ends) {
+void link_edges_of(TriangleLinks& graph, uint32_t vertex, std::vector<EdgeSide>& ends) {
     ends.clear();
     for (const uint32_t side : graph.sides_leaving(vertex)) {
         if (has_corner_twice(graph, side)) {
@@ -152,7 +151,7 @@ TriangleGraph make_triangle_graph(std::span<const Triangle> triangles, std::span
                 graph.numbering.new_vertex[triangles[t][k]];
         }
     }
-    measure(graph, positions);
+    set_places(graph, positions);
     link_vertices(graph, positions.size());
     link_edges(graph);
     return graph;

@@ -9,29 +9,15 @@
 
 namespace anvil {
 
-/// Side s = 3 t + k of triangle t runs from its corner k to corner k + 1. A side also stands for the corner
-/// that it leaves. Any number of triangles may share an edge or a vertex. Vertices and triangles have the
-/// numbers of `numbering`; corners keep their order. Lengths are in units of a power of two near the extent
-/// of the mesh, so that squares neither overflow nor vanish at any scale and scaling by powers of two changes
-/// no digit.
-struct TriangleGraph {
-    Numbering numbering;
-    double unit = 1;                     ///< world length of 1
+/// How triangles hang together. Side s = 3 t + k of triangle t runs from its corner k to corner k + 1. A side
+/// also stands for the corner that it leaves. Any number of triangles may share an edge or a vertex.
+struct TriangleLinks {
     std::vector<uint32_t> corner_vertex; ///< 3 per triangle
-    std::vector<double> side_length;     ///< 3 per triangle
-    /// Per triangle, from the positions: of needles and caps the lengths know angles to the root of rounding
-    /// only. Triangles made by flips have none here.
-    struct Shape {
-        double dot;         ///< of the shortest side and the one before it turned around
-        double double_area; ///< twice the area
-    };
-    std::vector<Shape> shape;
     /// The next side of the same edge, in a ring over all of them: 2 * side, + 1 if it runs the same way;
     /// no_index where no other side shares the edge. Triangles with a corner twice are not linked.
     std::vector<uint32_t> across;
     std::vector<uint32_t> leaving_begin; ///< vertex_count() + 1
     std::vector<uint32_t> leaving;       ///< the sides that leave each vertex
-    double longest_side = 0;
 
     /// What twin() gives in place of a side.
     static constexpr uint32_t boundary = no_index;
@@ -58,12 +44,37 @@ struct TriangleGraph {
     }
 };
 
-/// Direction of the third corner of a triangle as seen from the corner that `side` leaves, the side along +x;
-/// (1, 0) where two corners coincide. Not for triangles made by flips.
+/// A surface as its mesh has it. Vertices and triangles have the numbers of `numbering`; corners keep their
+/// order. Lengths are in units of a power of two near the extent of the mesh, so that squares neither overflow
+/// nor vanish at any scale and scaling by powers of two changes no digit.
+struct TriangleGraph : TriangleLinks {
+    Numbering numbering;
+    double unit = 1;          ///< world length of 1
+    std::vector<Vec3> places; ///< per vertex, in units
+    double longest_side = 0;  ///< no side is longer
+
+    double length(uint32_t side) const { return glm::length(places[to(side)] - places[from(side)]); }
+};
+
+/// What is measured of a triangle in space: of needles and caps the lengths alone know angles to the root of
+/// rounding only.
+struct MeasuredTriangle {
+    std::array<double, 3> length; ///< of the sides from corners 0, 1, 2
+    uint32_t shortest;            ///< of these
+    double dot;                   ///< of the shortest side and the one before it turned around
+    double double_area;           ///< twice the area
+
+    /// Direction of the third corner as seen from the one that side k leaves, the side along +x; (1, 0) where
+    /// two corners coincide.
+    PlanePoint direction_of_apex(uint32_t k) const;
+};
+MeasuredTriangle measured(const TriangleGraph& graph, uint32_t triangle);
+
+/// The same of one corner, by its side.
 PlanePoint direction_of_apex(const TriangleGraph& graph, uint32_t side);
 
 /// Lists `leaving` anew from corner_vertex.
-void link_vertices(TriangleGraph& graph, size_t vertex_count);
+void link_vertices(TriangleLinks& graph, size_t vertex_count);
 
 /// One end of an edge: the other vertex, and the side.
 struct EdgeSide {
@@ -72,14 +83,7 @@ struct EdgeSide {
 
 /// Sets `across` of the edges from `vertex` to higher vertices, from `leaving`. Triangles with a corner twice
 /// are passed over. `scratch` is kept between calls for its memory alone.
-void link_edges_of(TriangleGraph& graph, uint32_t vertex, std::vector<EdgeSide>& scratch);
-
-/// What is measured of a triangle in space.
-struct MeasuredTriangle {
-    std::array<double, 3> length; ///< of the sides from corners 0, 1, 2
-    TriangleGraph::Shape shape;
-};
-MeasuredTriangle measured(const std::array<Vec3, 3>& corners, double inverse_unit);
+void link_edges_of(TriangleLinks& graph, uint32_t vertex, std::vector<EdgeSide>& scratch);
 
 /// The unit for a surface within the box of these positions.
 double unit_of(std::span<const Vec3> positions);

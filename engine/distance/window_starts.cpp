@@ -17,11 +17,11 @@ void ExactWindows::follow_edges(uint32_t vertex) {
     const double offset = distance_[vertex];
     for (const uint32_t side : graph_.sides_leaving(vertex)) {
         const uint32_t next = TriangleGraph::next(side), arriving = TriangleGraph::previous(side);
-        const double out = offset + graph_.side_length[side];
+        const double out = offset + graph_.length(side);
         if (out < distance_[graph_.from(next)] * better) {
             arrive(graph_.from(next), out, next, table_.angle[next]);
         }
-        const double back = offset + graph_.side_length[arriving];
+        const double back = offset + graph_.length(arriving);
         if (back < distance_[graph_.from(arriving)] * better) {
             arrive(graph_.from(arriving), back, arriving, 0);
         }
@@ -37,7 +37,7 @@ void ExactWindows::emit(uint32_t side, double first, double last, double offset)
     const PlanePoint apex = table_.apex(opposite);
     // The frame runs against the opposite side: its start is seen at the corner's angle, its end at 0.
     const auto place = [&](double angle) {
-        return graph_.side_length[side] * std::sin(angle) / std::sin(angle + table_.angle[opposite]);
+        return graph_.length(side) * std::sin(angle) / std::sin(angle + table_.angle[opposite]);
     };
     const double end = first > 0 ? std::min(length, length - place(first)) : length;
     const double begin = last < corner ? std::max(0.0, length - place(last)) : 0;

@@ -32,10 +32,9 @@ WindowTable::Bend bend_at(const TriangleGraph& graph, uint32_t vertex, double to
     }
 }
 
-bool is_thin(const TriangleGraph& graph, uint32_t triangle) {
-    const double* length = &graph.side_length[3 * size_t{triangle}];
-    const double longest = std::max({length[0], length[1], length[2]});
-    return graph.shape[triangle].double_area <= thin_angle * longest * longest;
+bool is_thin(const MeasuredTriangle& triangle) {
+    const double longest = *std::max_element(triangle.length.begin(), triangle.length.end());
+    return triangle.double_area <= thin_angle * longest * longest;
 }
 
 uint32_t link_across(const TriangleGraph& graph, uint32_t side) {
@@ -45,15 +44,16 @@ uint32_t link_across(const TriangleGraph& graph, uint32_t side) {
     }
     const uint32_t other = link >> 1;
     const bool more = graph.across[other] >> 1 != side;
-    return 8 * other + (is_thin(graph, other / 3) ? WindowTable::thin : 0) + (more ? WindowTable::more : 0) +
+    return 8 * other + (is_thin(measured(graph, other / 3)) ? WindowTable::thin : 0) + (more ? WindowTable::more : 0) +
            ((link & 1) != 0 ? WindowTable::same_way : 0);
 }
 
 void set_face(WindowTable& table, const TriangleGraph& graph, uint32_t triangle) {
     WindowTable::Face& face = table.faces[triangle];
+    const MeasuredTriangle found = measured(graph, triangle);
+    face.length = found.length;
     for (uint32_t side = 3 * triangle; side < 3 * triangle + 3; ++side) {
-        const PlanePoint along = direction_of_apex(graph, side);
-        face.length[side % 3] = graph.side_length[side];
+        const PlanePoint along = found.direction_of_apex(side % 3);
         face.along[side % 3] = along;
         face.vertex[side % 3] = graph.from(side);
         face.across[side % 3] = link_across(graph, side);
@@ -70,12 +70,12 @@ void set_vertex(WindowTable& table, const TriangleGraph& graph, uint32_t vertex)
     table.bend[vertex] = bend_at(graph, vertex, total);
 }
 
-void set_mean_length(WindowTable& table, const TriangleGraph& graph) {
+void set_mean_length(WindowTable& table) {
     double sum = 0;
-    for (const double length : graph.side_length) {
-        sum += length;
+    for (const WindowTable::Face& face : table.faces) {
+        sum += face.length[0] + face.length[1] + face.length[2];
     }
-    const size_t sides = graph.side_length.size();
+    const size_t sides = 3 * table.faces.size();
     table.mean_length = sides > 0 ? sum / static_cast<double>(sides) : 0;
 }
 
@@ -101,7 +101,7 @@ WindowTable make_window_table(const TriangleGraph& graph) {
             set_vertex(table, graph, static_cast<uint32_t>(v));
         }
     });
-    set_mean_length(table, graph);
+    set_mean_length(table);
     return table;
 }
 
@@ -116,7 +116,7 @@ void update_window_table(WindowTable& table, const TriangleGraph& graph,
     for (const uint32_t v : changed_vertices) {
         set_vertex(table, graph, v);
     }
-    set_mean_length(table, graph);
+    set_mean_length(table);
 }
 
 } // namespace anvil

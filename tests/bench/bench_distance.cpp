@@ -148,10 +148,10 @@ void bench(const std::string& name, size_t source_count, bool with_errors) {
     compare(c, "full", 0);
     if (with_errors) {
         double sum = 0;
-        for (const double length : graph.side_length) {
-            sum += length;
+        for (uint32_t side = 0; side < graph.corner_vertex.size(); ++side) {
+            sum += graph.length(side);
         }
-        errors(c, graph, sum * graph.unit / static_cast<double>(graph.side_length.size()));
+        errors(c, graph, sum * graph.unit / static_cast<double>(graph.corner_vertex.size()));
     }
     std::fflush(stdout);
 }
