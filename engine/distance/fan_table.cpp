@@ -37,6 +37,7 @@ class Builder {
 
     FanTable build() {
         const size_t count = graph_.vertex_count();
+        table_.fans.reserve(with_room(count + 1));
         table_.fans.resize(count + 1);
         parallel_for(graph_.corner_vertex.size(), 1 << 14, [&](size_t begin, size_t end) {
             for (size_t side = begin; side < end; ++side) {
@@ -54,6 +55,7 @@ class Builder {
             place += spoke_count(static_cast<uint32_t>(v));
         }
         table_.fans[count].first_spoke = place;
+        table_.spokes.reserve(with_room(place));
         table_.spokes.resize(place);
         parallel_for(count, 1 << 12, [&](size_t begin, size_t end) {
             for (size_t v = begin; v < end; ++v) {

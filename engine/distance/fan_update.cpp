@@ -132,7 +132,8 @@ class FanUpdate {
                 const uint32_t there = link == no_index ? no_index : local_triangle[other / 3];
                 part_.corner_vertex.push_back(local_vertex(graph_.from(side)));
                 part_.side_length.push_back(graph_.length(side));
-                part_.across.push_back(there == no_index ? no_index : 2 * (3 * there + other % 3) + (link & 1));
+                part_.across.push_back(there == no_index ? no_index
+                                                         : 2 * (3 * there + other % 3) + (link & 1));
             }
         }
         link_vertices(part_, vertices_.size());
@@ -229,7 +230,7 @@ class FanUpdate {
     const TriangleGraph& graph_;
     const std::vector<uint32_t>& changed_vertices_;
     NumberSet torn_;
-    NumberSet centre_{0}; ///< vertices whose spokes are made anew
+    NumberSet centre_{0};                        ///< vertices whose spokes are made anew
     std::vector<uint32_t> triangles_, vertices_; ///< of the part, ascending
     IntrinsicGraph part_;
 };

@@ -186,8 +186,8 @@ SolverUpdate GeodesicSolver::update(const Mesh& mesh, std::span<const Vec3> posi
     SurfaceTables tables = shared ? state_->tables : std::move(state_->tables);
     std::unique_ptr<WindowTable> windows;
     if (state_->window_table) {
-        windows = shared ? std::make_unique<WindowTable>(*state_->window_table)
-                         : std::move(state_->window_table);
+        windows =
+            shared ? std::make_unique<WindowTable>(*state_->window_table) : std::move(state_->window_table);
     }
     SurfaceChange change;
     if (!update_surface_tables(tables, mesh.triangles, positions, roots, change)) {

@@ -24,10 +24,10 @@ struct SurfaceChange {
 };
 
 /// Makes the tables those of a surface that differs in some triangles: divided, or moved. All other numbers
-/// of the graph, and the spokes of vertices away from the change, stay as they are; new vertices and triangles
-/// follow them. What is as before is found by comparing; the work beyond that and beyond copying is that of
-/// the change: of the triangles that changed, those that lie in common Delaunay triangles with them, and two
-/// rings around these, so that flips that cross the rim are found.
+/// of the graph, and the spokes of vertices away from the change, stay as they are; new vertices and
+/// triangles follow them. What is as before is found by comparing; the work beyond that and beyond copying is
+/// that of the change: of the triangles that changed, those that lie in common Delaunay triangles with them,
+/// and two rings around these, so that flips that cross the rim are found.
 /// @param roots: per triangle the one before that it is or was part of; empty: each was itself
 /// @return false if the surface differs too much; the tables are of no use then and are to be made.
 bool update_surface_tables(SurfaceTables& tables, std::span<const Triangle> triangles,

@@ -17,6 +17,7 @@ double power_of_two_near(double extent) {
 
 void set_places(TriangleGraph& graph, std::span<const Vec3> positions) {
     const double inverse = 1 / graph.unit;
+    graph.places.reserve(with_room(positions.size()));
     graph.places.resize(positions.size());
     parallel_for(positions.size(), 1 << 14, [&](size_t begin, size_t end) {
         for (size_t v = begin; v < end; ++v) {
@@ -42,6 +43,7 @@ bool has_corner_twice(const TriangleLinks& graph, uint32_t side) {
 }
 
 void link_edges(TriangleLinks& graph) {
+    graph.across.reserve(with_room(graph.corner_vertex.size()));
     graph.across.assign(graph.corner_vertex.size(), no_index);
     parallel_for(graph.vertex_count(), 1 << 12, [&](size_t begin, size_t end) {
         std::vector<EdgeSide> ends;
@@ -92,6 +94,7 @@ PlanePoint direction_of_apex(const TriangleGraph& graph, uint32_t side) {
 
 void link_vertices(TriangleLinks& graph, size_t vertex_count) {
     std::vector<uint32_t>& begin = graph.leaving_begin;
+    begin.reserve(with_room(vertex_count + 1));
     begin.assign(vertex_count + 1, 0);
     for (const uint32_t v : graph.corner_vertex) {
         ++begin[v + 1];
@@ -99,6 +102,7 @@ void link_vertices(TriangleLinks& graph, size_t vertex_count) {
     for (size_t v = 0; v < vertex_count; ++v) {
         begin[v + 1] += begin[v];
     }
+    graph.leaving.reserve(with_room(graph.corner_vertex.size()));
     graph.leaving.resize(graph.corner_vertex.size());
     std::vector<uint32_t> place(begin.begin(), begin.end() - 1);
     for (uint32_t side = 0; side < graph.corner_vertex.size(); ++side) {
@@ -144,6 +148,7 @@ TriangleGraph make_triangle_graph(std::span<const Triangle> triangles, std::span
     TriangleGraph graph;
     graph.numbering = std::move(numbering);
     graph.unit = unit_of(positions);
+    graph.corner_vertex.reserve(with_room(3 * triangles.size()));
     graph.corner_vertex.resize(3 * triangles.size());
     for (size_t t = 0; t < triangles.size(); ++t) {
         for (size_t k = 0; k < 3; ++k) {

@@ -45,8 +45,8 @@ struct TriangleLinks {
 };
 
 /// A surface as its mesh has it. Vertices and triangles have the numbers of `numbering`; corners keep their
-/// order. Lengths are in units of a power of two near the extent of the mesh, so that squares neither overflow
-/// nor vanish at any scale and scaling by powers of two changes no digit.
+/// order. Lengths are in units of a power of two near the extent of the mesh, so that squares neither
+/// overflow nor vanish at any scale and scaling by powers of two changes no digit.
 struct TriangleGraph : TriangleLinks {
     Numbering numbering;
     double unit = 1;          ///< world length of 1
@@ -84,6 +84,12 @@ struct EdgeSide {
 /// Sets `across` of the edges from `vertex` to higher vertices, from `leaving`. Triangles with a corner twice
 /// are passed over. `scratch` is kept between calls for its memory alone.
 void link_edges_of(TriangleLinks& graph, uint32_t vertex, std::vector<EdgeSide>& scratch);
+
+/// Room for some more: tables of meshes that are refined then grow in place. What is not used costs nothing,
+/// as it is never touched.
+inline size_t with_room(size_t count) {
+    return count + count / 8;
+}
 
 /// The unit for a surface within the box of these positions.
 double unit_of(std::span<const Vec3> positions);

@@ -44,8 +44,8 @@ uint32_t link_across(const TriangleGraph& graph, uint32_t side) {
     }
     const uint32_t other = link >> 1;
     const bool more = graph.across[other] >> 1 != side;
-    return 8 * other + (is_thin(measured(graph, other / 3)) ? WindowTable::thin : 0) + (more ? WindowTable::more : 0) +
-           ((link & 1) != 0 ? WindowTable::same_way : 0);
+    return 8 * other + (is_thin(measured(graph, other / 3)) ? WindowTable::thin : 0) +
+           (more ? WindowTable::more : 0) + ((link & 1) != 0 ? WindowTable::same_way : 0);
 }
 
 void set_face(WindowTable& table, const TriangleGraph& graph, uint32_t triangle) {
@@ -90,6 +90,8 @@ void resize(WindowTable& table, const TriangleGraph& graph) {
 
 WindowTable make_window_table(const TriangleGraph& graph) {
     WindowTable table;
+    table.faces.reserve(with_room(graph.triangle_count()));
+    table.angle.reserve(with_room(graph.corner_vertex.size()));
     resize(table, graph);
     parallel_for(graph.triangle_count(), 1 << 13, [&](size_t begin, size_t end) {
         for (size_t t = begin; t < end; ++t) {

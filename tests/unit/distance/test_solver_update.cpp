@@ -245,8 +245,8 @@ TEST_CASE("what an update does not touch stays as it was, bit for bit") {
     const SurfaceTables before = tables;
     const RefinedMesh refined = refined_somewhere(mesh, 12, random);
     SurfaceChange change;
-    REQUIRE(update_surface_tables(tables, refined.mesh.triangles, refined.mesh.positions, refined.roots,
-                                  change));
+    REQUIRE(
+        update_surface_tables(tables, refined.mesh.triangles, refined.mesh.positions, refined.roots, change));
     size_t same = 0;
     for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
         const auto row = [v](const FanTable& table) {
