@@ -49,7 +49,8 @@ struct Found {
 
 Found find_distances(const Mesh& mesh, const Options& options) {
     const RefinementHistory unrefined(mesh);
-    SurfaceState surface(mesh, mesh.positions, unrefined);
+    KeptSolvers solvers;
+    SurfaceState surface(mesh, mesh.positions, unrefined, solvers);
     Found found;
     DistanceQuery query;
     query.anchors.emplace_back();

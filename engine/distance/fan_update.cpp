@@ -30,7 +30,7 @@ class NumberSet {
 
 class FanUpdate {
   public:
-    FanUpdate(SurfaceTables& tables, std::vector<uint32_t> torn, const SurfaceChange& change)
+    FanUpdate(SurfaceTables& tables, std::span<const uint32_t> torn, const SurfaceChange& change)
         : tables_(tables), graph_(tables.graph), changed_vertices_(change.vertices),
           torn_(graph_.triangle_count()) {
         for (const uint32_t triangle : torn) {
@@ -237,8 +237,8 @@ class FanUpdate {
 
 } // namespace
 
-bool update_fans(SurfaceTables& tables, std::vector<uint32_t> torn, SurfaceChange& change) {
-    return FanUpdate(tables, std::move(torn), change).run(change);
+bool update_fans(SurfaceTables& tables, std::span<const uint32_t> torn, SurfaceChange& change) {
+    return FanUpdate(tables, torn, change).run(change);
 }
 
 } // namespace anvil

@@ -46,7 +46,7 @@ class GraphUpdate {
         return true;
     }
 
-    std::vector<uint32_t>& torn() { return torn_; }
+    const std::vector<uint32_t>& torn() const { return torn_; }
 
   private:
     bool may_follow() const {
@@ -253,8 +253,7 @@ bool update_surface_tables(SurfaceTables& tables, std::span<const Triangle> tria
                            std::span<const Vec3> positions, std::span<const uint32_t> roots,
                            SurfaceChange& change) {
     GraphUpdate update(tables, triangles, positions, roots);
-    return update.run(change) &&
-           (change.vertices.empty() || update_fans(tables, std::move(update.torn()), change));
+    return update.run(change) && (change.vertices.empty() || update_fans(tables, update.torn(), change));
 }
 
 } // namespace anvil

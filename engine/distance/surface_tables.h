@@ -37,6 +37,6 @@ bool update_surface_tables(SurfaceTables& tables, std::span<const Triangle> tria
 /// The part of it that brings the Delaunay edges up to date. `tables.graph` is that of the new surface, and
 /// `torn` are the triangles that changed and all that were joined with one by flipped sides; their flags in
 /// `tables.flipped` are 0. @return false as above.
-bool update_fans(SurfaceTables& tables, std::vector<uint32_t> torn, SurfaceChange& change);
+bool update_fans(SurfaceTables& tables, std::span<const uint32_t> torn, SurfaceChange& change);
 
 } // namespace anvil

@@ -82,8 +82,8 @@ struct EdgeSide {
 };
 
 /// Sets `across` of the edges from `vertex` to higher vertices, from `leaving`. Triangles with a corner twice
-/// are passed over. `scratch` is kept between calls for its memory alone.
-void link_edges_of(TriangleLinks& graph, uint32_t vertex, std::vector<EdgeSide>& scratch);
+/// are passed over. `ends` is kept between calls for its memory alone.
+void link_edges_of(TriangleLinks& graph, uint32_t vertex, std::vector<EdgeSide>& ends);
 
 /// Room for some more: tables of meshes that are refined then grow in place. What is not used costs nothing,
 /// as it is never touched.

@@ -177,13 +177,14 @@ class Forger {
                 between(result_.weights[p.a], result_.weights[p.b], static_cast<float>(p.place)));
         }
         history_.add(refined);
+        solvers_.divided(refined.roots);
         result_.refined = std::move(refined.mesh);
         surface_.reset(); // it knows the mesh before
     }
 
     SurfaceState& surface() {
         if (!surface_) {
-            surface_.emplace(mesh(), result_.positions, history_);
+            surface_.emplace(mesh(), result_.positions, history_, solvers_);
         }
         return *surface_;
     }
@@ -257,6 +258,7 @@ class Forger {
         }
         if (report.moved > 0) {
             surface_.reset(); // it knows the positions before
+            solvers_.moved();
         }
         count_steps(results, report);
         if (!input.occluders.empty()) {
@@ -345,6 +347,7 @@ class Forger {
     Vec3 origin_{0};
     double diagonal_ = 0;
     ForgeResult result_;
+    KeptSolvers solvers_;
     std::optional<SurfaceState> surface_; ///< of result_.positions; empty once they have changed
     std::optional<double> volume_;        ///< of result_.positions, for closed meshes
 };

@@ -3,7 +3,6 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel_for.h"
 #include "engine/distance/anchor_blend.h"
-#include "engine/distance/smoothed_surface.h"
 
 namespace anvil {
 
@@ -79,20 +78,9 @@ std::vector<uint32_t> SurfaceState::triangles_of(const WholeFaceAddress& face,
                              static_cast<uint32_t>(file.first_triangle(face.face + size_t{1})));
 }
 
-const GeodesicSolver& SurfaceState::solver(uint32_t smooth_rounds) {
-    const auto known = solvers_.find(smooth_rounds);
-    if (known != solvers_.end()) {
-        return known->second;
-    }
-    const std::vector<Vec3> smoothed =
-        smooth_rounds > 0 ? smoothed_positions(mesh_, positions_, smooth_rounds) : std::vector<Vec3>{};
-    const std::span<const Vec3> positions = smooth_rounds > 0 ? std::span<const Vec3>(smoothed) : positions_;
-    return solvers_.try_emplace(smooth_rounds, mesh_, positions).first->second;
-}
-
 std::vector<SurfacePoint> SurfaceState::line_through(std::span<const SurfacePoint> points,
                                                      uint32_t smooth_rounds, const std::string& place) {
-    const GeodesicSolver& surface = solver(smooth_rounds);
+    const GeodesicSolver& surface = solvers_.solver(mesh_, positions_, smooth_rounds);
     std::vector<SurfacePoint> line(points.begin(), points.begin() + 1);
     for (size_t i = 1; i < points.size(); ++i) {
         const auto joined = surface.share_triangle(points[i - 1], points[i])
@@ -139,19 +127,19 @@ DistanceField SurfaceState::straight_distances(const DistanceSources& sources, d
 }
 
 std::vector<DistanceField> SurfaceState::distances(std::span<const DistanceQuery> queries) {
+    std::vector<const GeodesicSolver*> solvers;
     for (const DistanceQuery& query : queries) {
-        if (query.metric == Metric::geodesic) {
-            solver(query.smooth_rounds);
-        }
+        solvers.push_back(query.metric == Metric::geodesic
+                              ? &solvers_.solver(mesh_, positions_, query.smooth_rounds)
+                              : nullptr);
     }
     std::vector<DistanceField> fields(queries.size());
     parallel_for(queries.size(), 1, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             const DistanceQuery& query = queries[i];
             const auto find = [&](const DistanceSources& sources, double radius) {
-                return query.metric == Metric::euclidean
-                           ? straight_distances(sources, radius)
-                           : solvers_.at(query.smooth_rounds).solve(sources, radius, query.method);
+                return query.metric == Metric::euclidean ? straight_distances(sources, radius)
+                                                         : solvers[i]->solve(sources, radius, query.method);
             };
             fields[i] = anchor_distances(query.anchors, query.radius, query.blend_width, find);
         }

@@ -3,12 +3,12 @@
 
 #include "engine/distance/distance.h"
 #include "engine/edit/recipe.h"
+#include "engine/forge/kept_solvers.h"
 #include "engine/mesh/mesh.h"
 #include "engine/mesh/search_tree.h"
 #include "engine/mesh/surface_point.h"
 #include "engine/refine/refined_places.h"
 
-#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -26,13 +26,15 @@ struct DistanceQuery {
     uint32_t smooth_rounds = 0; ///< geodesic distances run on a copy that was smoothed so often
 };
 
-/// One mesh at one set of positions, both of which must outlive it unchanged. The search tree and the
-/// distance solvers, O(mesh) each, are built when first asked for and then kept. Not for several threads.
+/// One mesh at one set of positions, both of which must outlive it unchanged. The search tree, O(mesh), is
+/// built when first asked for and then kept. Not for several threads.
 /// `history`: what refinement made of the file's mesh, to which addresses belong, until it is this one.
+/// `solvers`: of this mesh, at these positions; they can serve the mesh's next state.
 class SurfaceState {
   public:
-    SurfaceState(const Mesh& mesh, std::span<const Vec3> positions, const RefinementHistory& history)
-        : mesh_(mesh), positions_(positions), history_(history) {}
+    SurfaceState(const Mesh& mesh, std::span<const Vec3> positions, const RefinementHistory& history,
+                 KeptSolvers& solvers)
+        : mesh_(mesh), positions_(positions), history_(history), solvers_(solvers) {}
 
     /// `place` begins the message, e.g. "edits[0].handles[1].at".
     /// @throws InputError if an index is out of range or the mesh has no surface to be near to.
@@ -62,15 +64,14 @@ class SurfaceState {
     SurfacePoint at_vertex(uint32_t vertex, const std::string& place);
     SurfacePoint at_face(const FaceAddress& address, const std::string& place) const;
     void check_face(uint32_t face, const std::string& place) const;
-    const GeodesicSolver& solver(uint32_t smooth_rounds);
     DistanceField straight_distances(const DistanceSources& sources, double radius) const;
     SurfacePoint near(const Vec3& point, const std::string& place);
 
     const Mesh& mesh_;
     std::span<const Vec3> positions_;
     const RefinementHistory& history_;
+    KeptSolvers& solvers_;
     std::unique_ptr<SearchTree> tree_;
-    std::map<uint32_t, GeodesicSolver> solvers_; ///< by rounds of smoothing
 };
 
 } // namespace anvil

@@ -35,7 +35,8 @@ std::vector<double> gamma(const Mesh& mesh, const std::string& anchors, const st
                                       "'anchors': [ {'at': [" + anchors +
                                       "]} ], 'handles': [ {'at': {'vertex': 0}, 'by': [0,0,1]} ] }");
     const RefinementHistory unrefined(mesh);
-    SurfaceState surface(mesh, mesh.positions, unrefined);
+    KeptSolvers solvers;
+    SurfaceState surface(mesh, mesh.positions, unrefined, solvers);
     const EditRegion region = find_region(recipe.edits[0], "edits[0]", surface);
     std::vector<double> result(mesh.vertex_count(), infinity);
     for (size_t i = 0; i < region.vertices.size(); ++i) {
@@ -107,7 +108,8 @@ TEST_CASE("a smooth blend of anchors lies between zero and the nearest one, and 
                                           anchors + "], 'blend': {'smooth': " + text(width) +
                                           "}} ], 'handles': [ {'at': {'vertex': 0}, 'by': [0,0,1]} ] }");
         const RefinementHistory unrefined(mesh);
-        SurfaceState surface(mesh, mesh.positions, unrefined);
+        KeptSolvers solvers;
+        SurfaceState surface(mesh, mesh.positions, unrefined, solvers);
         return find_region(recipe.edits[0], "edits[0]", surface);
     };
     const std::vector<double> nearest = gamma(mesh, anchors);
@@ -131,7 +133,8 @@ TEST_CASE("an anchor that is given twice in other words counts once") {
             "{ 'kind': 'translate', 'radius': 10, 'anchors': [ {'at': [" + anchors +
             "], 'blend': {'smooth': 0.1}} ], 'handles': [ {'at': {'vertex': 0}, 'by': [0,0,1]} ] }");
         const RefinementHistory unrefined(mesh);
-        SurfaceState surface(mesh, mesh.positions, unrefined);
+        KeptSolvers solvers;
+        SurfaceState surface(mesh, mesh.positions, unrefined, solvers);
         return find_region(recipe.edits[0], "edits[0]", surface).fields;
     };
     const size_t first = mesh.first_triangle(27);
