@@ -39,9 +39,16 @@ std::string row_of(const std::string& name, const std::string& vertices, const s
 }
 
 Json machine_json(const Machine& m) {
-    return {{"cpu", m.cpu},       {"cores", m.cores},   {"memory_bytes", m.memory_bytes},
-            {"system", m.system}, {"load", m.load},     {"device", m.device},
-            {"driver", m.driver}, {"anvil", m.version}, {"compiler", m.compiler}};
+    return {{"cpu", m.cpu},
+            {"cores", m.cores},
+            {"memory_bytes", m.memory_bytes},
+            {"system", m.system},
+            {"load", m.load},
+            {"device", m.device},
+            {"driver", m.driver},
+            {"anvil", m.version},
+            {"compiler", m.compiler},
+            {"float_loop", m.float_loop}};
 }
 
 Json case_json(const BenchResult& r) {

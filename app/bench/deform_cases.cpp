@@ -6,24 +6,36 @@ namespace anvil {
 
 namespace {
 
-std::function<void()> updates(Backend& backend, const std::shared_ptr<const DeformScene>& scene) {
-    const std::shared_ptr<DeformSession> session = backend.prepare(scene->input);
-    return [session, scene] {
-        session->update(scene->motion);
+std::function<void()> updates(Backend& backend, const DeformInput& input, const DeformMotion& motion) {
+    const std::shared_ptr<DeformSession> session = backend.prepare(input);
+    return [session, motion] {
+        session->update(motion);
         session->wait();
     };
 }
 
+std::vector<Yardstick> yardsticks_of(Workshop& workshop, const DeformScene& scene) {
+    std::vector<Yardstick> yardsticks;
+    yardsticks.push_back({"cpu", updates(workshop.cpu(), scene.input, scene.motion)});
+    yardsticks.push_back({"cpu_float", updates(workshop.float_cpu(), scene.input, scene.motion)});
+    if (scene.motion.fixed_steps) {
+        DeformMotion every = scene.motion;
+        every.every_step = true;
+        yardsticks.push_back({"cpu_float_all_steps", updates(workshop.float_cpu(), scene.input, every)});
+    }
+    yardsticks.push_back(memcpy_yardstick(state_bytes(scene)));
+    return yardsticks;
+}
+
 ReadyCase ready_case(Workshop& workshop, size_t vertices, const DeformSceneOptions& options) {
     const std::shared_ptr<const Mesh> sphere = workshop.sphere(vertices);
-    const auto scene = std::make_shared<const DeformScene>(make_deform_scene(*sphere, options));
+    const DeformScene scene = make_deform_scene(*sphere, options);
     ReadyCase ready;
     ready.vertices = sphere->vertex_count();
-    ready.region = scene->input.points.size();
-    ready.bytes = state_bytes(*scene);
-    ready.work = updates(workshop.tested(), scene);
-    ready.yardsticks.push_back({"cpu", updates(workshop.cpu(), scene)});
-    ready.yardsticks.push_back(memcpy_yardstick(ready.bytes));
+    ready.region = scene.input.points.size();
+    ready.bytes = state_bytes(scene);
+    ready.work = updates(workshop.tested(), scene.input, scene.motion);
+    ready.yardsticks = yardsticks_of(workshop, scene);
     return ready;
 }
 

@@ -62,6 +62,7 @@ Machine this_machine(const Backend& tested) {
     machine.version = ANVIL_VERSION;
     machine.device = tested.device_name();
     machine.driver = tested.driver_name();
+    machine.float_loop = make_float_cpu_backend()->driver_name();
     machine.load = load_average();
     return machine;
 }

@@ -17,7 +17,8 @@ struct Machine {
     std::string version;  ///< of Anvil
     std::string device;   ///< of the back end that was measured
     std::string driver;
-    double load = 0; ///< processes that wanted a core in the minute before
+    std::string float_loop; ///< what the float yardsticks are compiled for
+    double load = 0;        ///< processes that wanted a core in the minute before
 };
 
 Machine this_machine(const Backend& tested);

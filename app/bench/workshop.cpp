@@ -15,7 +15,7 @@ constexpr uint32_t field_resolution = 128;
 } // namespace
 
 Workshop::Workshop(Backend& tested, Progress& progress)
-    : tested_(tested), progress_(progress), cpu_(make_cpu_backend()) {}
+    : tested_(tested), progress_(progress), cpu_(make_cpu_backend()), float_cpu_(make_float_cpu_backend()) {}
 
 std::shared_ptr<const Mesh> Workshop::sphere(size_t vertices) {
     if (const auto found = spheres_.find(vertices); found != spheres_.end()) {

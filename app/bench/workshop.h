@@ -28,6 +28,7 @@ class Workshop {
 
     Backend& tested() const { return tested_; }
     Backend& cpu() const { return *cpu_; }
+    Backend& float_cpu() const { return *float_cpu_; }
 
     /// An icosphere of radius 1 with about so many vertices; the last one asked for is kept.
     std::shared_ptr<const Mesh> sphere(size_t vertices);
@@ -40,6 +41,7 @@ class Workshop {
     Backend& tested_;
     Progress& progress_;
     std::unique_ptr<Backend> cpu_;
+    std::unique_ptr<Backend> float_cpu_;
     std::map<size_t, std::shared_ptr<const Mesh>> spheres_;
     std::map<Obstacle, OccluderModel> obstacles_;
 };

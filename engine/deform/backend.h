@@ -38,4 +38,9 @@ class Backend {
 /// The reference: double precision, the shared formulas, all cores.
 std::unique_ptr<Backend> make_cpu_backend();
 
+/// The shared formulas in float, as devices compute them, all cores; with AVX2 where `widest` and the
+/// processor has it. A yardstick: at steps that differ in rounding it ends where a device ends, not where the
+/// reference does.
+std::unique_ptr<Backend> make_float_cpu_backend(bool widest = true);
+
 } // namespace anvil

@@ -103,7 +103,9 @@ kernel::f64::KernelParams kernel_params(const DeformInput& input, const DeformMo
                                                         : k::MOTION_CHORD;
     params.paper = input.occluders.paper ? 1 : 0;
     params.moving = input.occluders.moves() ? 1 : 0;
-    params.steps = motion.fixed_steps ? k::STEPS_FIXED : k::STEPS_ADAPTIVE;
+    params.steps = !motion.fixed_steps ? k::STEPS_ADAPTIVE
+                   : motion.every_step ? k::STEPS_EVERY
+                                       : k::STEPS_FIXED;
     params.step_limit = motion.steps;
     params.axis_origin = motion.axis_origin;
     params.axis_direction = motion.axis_direction;

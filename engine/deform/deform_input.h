@@ -40,6 +40,7 @@ struct DeformMotion {
     std::vector<double> times;    ///< S, ascending to 1: when each sample is reached; empty: equal parts
     bool fixed_steps =
         false; ///< exactly `steps` equal steps a path segment, else adaptive with at most `steps`
+    bool every_step = false; ///< fixed steps that meet nothing are taken too: slower, the same result
     uint32_t steps = 4096;
     double path_epsilon = 0; ///< shorter paths do not move a vertex
 };

@@ -3,31 +3,8 @@
 
 #include "engine/occluder/occluder_kernel.h"
 
-#define INOUT(type) type&
-#define PRECISE
-
 namespace anvil::kernel::f64 {
 
-/// The functions of shaders/shared/{path,contact}.h over arrays that outlive it.
-struct DeformKernel : OccluderKernel {
-    KernelParams params{};
-    const real3* points = nullptr;
-    const real* fields = nullptr;
-    const CurveRange* shapes = nullptr;
-    const real3* targets = nullptr;
-    const Pose* poses = nullptr;
-    const real* start_distances = nullptr;
-
-    const Occluder& occluder_at(uint k) const { return occluders[k]; }
-
-// NOLINTBEGIN: compiled as GLSL too
-#include "shaders/shared/path.h"
-
-#include "shaders/shared/contact.h"
-    // NOLINTEND
-};
+#include "engine/deform/deform_kernel_of_real.h"
 
 } // namespace anvil::kernel::f64
-
-#undef INOUT
-#undef PRECISE

@@ -301,6 +301,13 @@ void add_rule_cases(std::vector<SelftestCase>& cases) {
     add_occluder(fixed, {leaf(k::SHAPE_SPHERE, {0.4, 0, 0})}, 401, k::INFLUENCE_HARD);
     cases.push_back(finished(std::move(fixed)));
 
+    SelftestCase every = scene("100 fixed steps, none left out", 405, 2);
+    every.motion.fixed_steps = true;
+    every.motion.every_step = true;
+    every.motion.steps = 100;
+    add_occluder(every, {leaf(k::SHAPE_SPHERE, {0.4, 0, 0})}, 406);
+    cases.push_back(finished(std::move(every)));
+
     SelftestCase curve = scene("influence curve", 410, 2);
     k::Occluder& curved =
         add_occluder(curve, {leaf(k::SHAPE_TORUS, {0.4, 0.15, 0})}, 411, k::INFLUENCE_CURVE);

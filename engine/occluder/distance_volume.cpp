@@ -2,6 +2,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel_for.h"
+#include "engine/occluder/trilinear.h"
 
 #include <cmath>
 
@@ -10,10 +11,6 @@ namespace anvil {
 namespace {
 
 constexpr double padding_voxels = 3; // beyond the solid on each side: margin and half a step lie inside
-
-size_t texel_index(const DistanceVolume& volume, size_t x, size_t y, size_t z) {
-    return 4 * (x + volume.size[0] * (y + volume.size[1] * z));
-}
 
 Vec3 voxel_centre(const DistanceVolume& volume, const Vec3& voxel) {
     return volume.centre - volume.half_size + volume.voxel * voxel;
@@ -38,7 +35,7 @@ void fill_row(DistanceVolume& volume, const ExactDistance& solid, size_t y, size
     }
     std::vector<SignedDistance> found(points.size());
     solid.trace(points, found);
-    float* texel = &volume.texels[texel_index(volume, 0, y, z)];
+    float* texel = &volume.texels[volume.texel_index(0, y, z)];
     for (const SignedDistance& s : found) {
         for (int i = 0; i < 3; ++i) {
             *texel++ = static_cast<float>(s.normal[i]);
@@ -52,7 +49,7 @@ double layer_error(const DistanceVolume& volume, const ExactDistance& solid, siz
     double worst = 0;
     for (size_t y = 0; y + 1 < volume.size[1]; ++y) {
         for (size_t x = 0; x + 1 < volume.size[0]; ++x) {
-            if (std::abs(volume.texels[texel_index(volume, x, y, z) + 3]) > 2 * volume.voxel) {
+            if (std::abs(volume.texels[volume.texel_index(x, y, z) + 3]) > 2 * volume.voxel) {
                 continue;
             }
             const Vec3 cell = Vec3(x, y, z) + Vec3(0.5);
@@ -77,23 +74,7 @@ double measured_error(const DistanceVolume& volume, const ExactDistance& solid) 
 } // namespace
 
 glm::dvec4 DistanceVolume::texel(const Vec3& uvw) const {
-    size_t low[3];
-    double t[3];
-    for (int i = 0; i < 3; ++i) {
-        const double place = std::clamp(uvw[i], 0.0, 1.0) * (size[i] - 1);
-        low[i] = std::min(static_cast<size_t>(place), static_cast<size_t>(size[i] - 2));
-        t[i] = place - static_cast<double>(low[i]);
-    }
-    glm::dvec4 sum(0);
-    for (int corner = 0; corner < 8; ++corner) {
-        const int dx = corner & 1;
-        const int dy = corner >> 1 & 1;
-        const int dz = corner >> 2;
-        const double weight = (dx ? t[0] : 1 - t[0]) * (dy ? t[1] : 1 - t[1]) * (dz ? t[2] : 1 - t[2]);
-        const float* value = &texels[texel_index(*this, low[0] + dx, low[1] + dy, low[2] + dz)];
-        sum += weight * glm::dvec4(value[0], value[1], value[2], value[3]);
-    }
-    return sum;
+    return trilinear_texel(*this, uvw);
 }
 
 VoxelGrid voxel_grid(const Box& box, uint32_t resolution) {

@@ -22,8 +22,9 @@ struct DistanceVolume {
         0; ///< largest |trilinear - exact| seen at cell centres near the surface, at most voxel / 4
     std::vector<float> texels; ///< 4 per voxel: normal x, y, z, distance; x fastest
 
-    /// Trilinear (normal, distance) at uvw in [0, 1] between the outermost voxel centres, as the GPU filters
-    /// it.
+    /// Where the numbers of voxel (x, y, z) begin in `texels`.
+    size_t texel_index(size_t x, size_t y, size_t z) const { return 4 * (x + size[0] * (y + size[1] * z)); }
+    /// Interpolated as trilinear_texel() does.
     glm::dvec4 texel(const Vec3& uvw) const;
 };
 

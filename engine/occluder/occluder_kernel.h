@@ -3,6 +3,7 @@
 
 #include "engine/occluder/distance_volume.h"
 #include "engine/occluder/kernel_types.h"
+#include "engine/occluder/trilinear.h"
 
 #include <cmath>
 #include <memory>
@@ -12,25 +13,6 @@ namespace anvil::kernel::f64 {
 using namespace glm;
 using real4 = dvec4;
 
-/// The functions of shaders/shared/{shape_function,occluder}.h over arrays that outlive it.
-struct OccluderKernel {
-    const ShapeSegment* segments = nullptr;
-    const ShapeNode* nodes = nullptr;
-    const Occluder* occluders = nullptr;
-    const std::shared_ptr<const DistanceVolume>* volumes = nullptr;
-    const uint32_t* field_words = nullptr; ///< of all adaptive fields, one after the other
-
-    real4 volume_texel(uint volume, real3 uvw) const { return volumes[volume]->texel(uvw); }
-
-    uint brick_word(const ShapeNode& node, uint index) const { return field_words[node.words + index]; }
-
-    static bool shape_is(uint kind, uint wanted) { return kind == wanted; }
-
-// NOLINTBEGIN: compiled as GLSL too
-#include "shaders/shared/shape_function.h"
-
-#include "shaders/shared/occluder.h"
-    // NOLINTEND
-};
+#include "engine/occluder/occluder_kernel_of_real.h"
 
 } // namespace anvil::kernel::f64

@@ -46,7 +46,7 @@ real pace(Path path, Contact here, Vertex vertex) {
                                                   : length(path.to - path.from - pose.move);
         real arm = length(p - (pose.origin + vertex.tau * pose.move)) + here.step;
         // Twice the growth: exp(x) - 1 <= 2 x for the x <= 1/2 that such a step leaves.
-        real grown = 2.0 * abs(pose.growth) * (arm + max(here.distance, real(0.0)));
+        real grown = real(2.0) * abs(pose.growth) * (arm + max(here.distance, real(0.0)));
         fastest = max(fastest, linear + abs(pose.turn) * arm + grown);
     }
     return fastest;
@@ -64,7 +64,7 @@ Contact contact_at(real3 p, INOUT(Vertex) vertex) {
     for (uint k = 0u; k < params.occluder_count; ++k) {
         Probe probe = posed_probe(k, p, vertex.segment, vertex.tau);
         real clearance = probe.distance - occluders[k].margin;
-        real skip = 0.9 * clearance;
+        real skip = real(0.9) * clearance;
         real step = max(occluders[k].step, skip);
         real width = occluders[k].width;
         if (occluders[k].influence == INFLUENCE_SOFT) {
@@ -188,7 +188,7 @@ Contact contact_step(INOUT(Vertex) vertex, Contact here, real3 base, real3 move,
     }
     // Held on one smooth surface a vertex goes no farther than its step; farther is a jump across a corner.
     if (!ok || length(held_offset + (move - carried) - vertex.offset) >
-                   2.0 * r + 4.0 * NEWTON_TOLERANCE * occluder_at(contact.occluder).step) {
+                   real(2.0) * r + real(4.0) * NEWTON_TOLERANCE * occluder_at(contact.occluder).step) {
         vertex.offset += carried - move; // stay at the last position, as the occluder sees it
         if (params.moving != 0u) {
             return contact_at(base + vertex.offset, vertex);
@@ -207,14 +207,15 @@ real next_tau(Path path, Contact here, Vertex vertex) {
     if (!(speed > 0.0)) {
         return 1.0;
     }
-    if (params.steps == STEPS_FIXED) {
+    if (params.steps != STEPS_ADAPTIVE) {
         real count = real(params.step_limit);
-        real whole = max(floor(here.skip * count / speed), real(1.0));
-        real done = floor(vertex.tau * count + 0.5);
+        real whole =
+            params.steps == STEPS_EVERY ? real(1.0) : max(floor(here.skip * count / speed), real(1.0));
+        real done = floor(vertex.tau * count + real(0.5));
         return min(done + whole, count) / count;
     }
     real next = vertex.tau + here.step / speed;
-    return next > 1.0 - 1e-6 ? real(1.0) : next;
+    return next > real(1.0 - 1e-6) ? real(1.0) : next;
 }
 
 // Follows one path segment. Returns the path's value where the vertex ended (before 1 if the limit was

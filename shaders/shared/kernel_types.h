@@ -108,7 +108,8 @@ const uint MOTION_STRAIGHT = 0u;
 const uint MOTION_ARC = 1u;   // rotation, swept along the arc
 const uint MOTION_CHORD = 2u; // rotation, swept along the chord from start to end
 const uint STEPS_ADAPTIVE = 0u;
-const uint STEPS_FIXED = 1u;
+const uint STEPS_FIXED = 1u; // of which those that meet nothing are left out
+const uint STEPS_EVERY = 2u; // the same steps, none left out
 
 // One edit's motion (push constants; 68 bytes in float).
 struct KernelParams {

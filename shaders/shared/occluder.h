@@ -83,14 +83,14 @@ Probe capsule_probe(real3 p, real radius, real half_height) {
 // Base of the given radius at y = -half_height, apex at y = +half_height.
 Probe cone_probe(real3 p, real radius, real half_height) {
     real radial = length(real3(p.x, 0.0, p.z));
-    real slant = length(real3(radius, 2.0 * half_height, 0.0));
-    real normal_radial = 2.0 * half_height / slant; // outward normal of the mantle in the half plane
+    real slant = length(real3(radius, real(2.0) * half_height, 0.0));
+    real normal_radial = real(2.0) * half_height / slant; // outward normal of the mantle in the half plane
     real normal_axial = radius / slant;
     real along =
-        clamp(((radius - radial) * radius + (p.y + half_height) * 2.0 * half_height) / (slant * slant),
+        clamp(((radius - radial) * radius + (p.y + half_height) * real(2.0) * half_height) / (slant * slant),
               real(0.0), real(1.0));
-    real mantle_radial = radial - radius * (1.0 - along);
-    real mantle_axial = p.y + half_height * (1.0 - 2.0 * along);
+    real mantle_radial = radial - radius * (real(1.0) - along);
+    real mantle_axial = p.y + half_height * (real(1.0) - real(2.0) * along);
     real base_radial = radial - min(radial, radius);
     real base_axial = p.y + half_height;
     real mantle = length(real3(mantle_radial, mantle_axial, 0.0));
@@ -140,14 +140,14 @@ Probe sampled_probe(real4 texel, real3 p, real3 c) {
 
 Probe volume_probe(uint volume, real3 p, real3 half_size) {
     real3 c = clamp(p, -half_size, half_size);
-    return sampled_probe(volume_texel(volume, 0.5 * (c / half_size) + real3(0.5)), p, c);
+    return sampled_probe(volume_texel(volume, real(0.5) * (c / half_size) + real3(0.5)), p, c);
 }
 
 // A sample of an adaptive field: its normal (not of unit length) and the distance in its brick's unit.
 real4 brick_sample(uint word) {
     real x = real(int(word << 8u) >> 24) / 127.0;
     real y = real(int(word) >> 24) / 127.0;
-    real z = 1.0 - abs(x) - abs(y);
+    real z = real(1.0) - abs(x) - abs(y);
     real fold = max(-z, real(0.0));
     x -= x < 0.0 ? -fold : fold;
     y -= y < 0.0 ? -fold : fold;
@@ -169,8 +169,8 @@ real4 brick_face(ShapeNode node, uint index, real3 t) {
 real4 brick_texel(ShapeNode node, real3 c) {
     real3 place = max((c + node.size) / node.extra, real3(0.0)); // in voxels
     real width = real(BRICK_CELLS);
-    real3 grid = floor(2.0 * node.size / (width * node.extra) + 0.5);
-    real3 brick = min(floor(place / width), grid - 1.0);
+    real3 grid = floor(real(2.0) * node.size / (width * node.extra) + real(0.5));
+    real3 brick = min(floor(place / width), grid - real(1.0));
     uint entry =
         brick_word(node, uint(brick.x) + uint(grid.x) * (uint(brick.y) + uint(grid.y) * uint(brick.z)));
     real scale = real(1u << (entry >> BRICK_LEVEL_SHIFT));

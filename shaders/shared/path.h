@@ -37,8 +37,8 @@ void sine_cosine(real angle, INOUT(real) sine, INOUT(real) cosine) {
 real3 arc_offset(real angle, real3 across, real3 turned) {
     real sine = 0.0;
     real cosine = 0.0;
-    sine_cosine(0.5 * angle, sine, cosine);
-    return 2.0 * sine * (cosine * turned - sine * across);
+    sine_cosine(real(0.5) * angle, sine, cosine);
+    return real(2.0) * sine * (cosine * turned - sine * across);
 }
 
 // Path value of path sample `s` (1-based; sample 0 is the start) at vertex i: sum_j alpha_j X_j, eq. 3 and 6,
@@ -131,7 +131,7 @@ real3 carry(uint k, real3 p, uint segment, real from, real to) {
     Pose pose = pose_at(segment, k);
     real3 arm = p - (pose.origin + from * pose.move);
     real3 turned = turn_offset(pose, (to - from) * pose.turn, arm);
-    return (to - from) * pose.move + turned + (growth_by(pose, to - from) - 1.0) * (arm + turned);
+    return (to - from) * pose.move + turned + (growth_by(pose, to - from) - real(1.0)) * (arm + turned);
 }
 
 // The same from the first sample to the last.

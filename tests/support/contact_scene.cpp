@@ -56,6 +56,7 @@ DeformMotion scene_motion(const Scene& scene) {
     motion.targets = {Vec3(s, 0, 0),  Vec3(-s, 0, 0), Vec3(0, s, 0),
                       Vec3(0, -s, 0), Vec3(0, 0, s),  Vec3(0, 0, -s)};
     motion.fixed_steps = scene.fixed_steps;
+    motion.every_step = scene.every_step;
     motion.steps = scene.steps;
     return motion;
 }

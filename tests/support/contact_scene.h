@@ -29,6 +29,7 @@ struct Scene {
     double mesh_diagonal = 2;
     double radius = 1;
     bool fixed_steps = false;
+    bool every_step = false; ///< fixed steps: none is left out
     uint32_t steps = 4096;
     double step_scale = 1; ///< multiplies h (margin and step) of every occluder
 };

@@ -1,0 +1,27 @@
+// The shared kernel over C++ arrays. Included after engine/occluder/occluder_kernel_of_real.h, in the same
+// namespace.
+
+#define INOUT(type) type&
+#define PRECISE
+
+/// The functions of shaders/shared/{path,contact}.h over arrays that outlive it.
+struct DeformKernel : OccluderKernel {
+    KernelParams params{};
+    const real3* points = nullptr;
+    const real* fields = nullptr;
+    const CurveRange* shapes = nullptr;
+    const real3* targets = nullptr;
+    const Pose* poses = nullptr;
+    const real* start_distances = nullptr;
+
+    const Occluder& occluder_at(uint k) const { return occluders[k]; }
+
+// NOLINTBEGIN: compiled as GLSL too
+#include "shaders/shared/path.h"
+
+#include "shaders/shared/contact.h"
+    // NOLINTEND
+};
+
+#undef INOUT
+#undef PRECISE
