@@ -48,6 +48,7 @@ layout(binding = 15) uniform sampler3D volume_6;
 layout(binding = 16) uniform sampler3D volume_7;
 layout(binding = 17, scalar) readonly buffer Poses { Pose poses[]; };
 layout(binding = 18, scalar) readonly buffer FieldWords { uint field_words[]; };
+layout(binding = 19, scalar) writeonly buffer Ends { vec3 ends[]; };
 
 // DeformVariant of engine/gpu/deform_pipeline.h, in this order.
 layout(constant_id = 0) const uint has_occluders = 1u;
@@ -58,6 +59,7 @@ layout(constant_id = 4) const uint steps = 0u;
 layout(constant_id = 5) const uint one_sample = 0u;
 layout(constant_id = 6) const uint shape_kinds = 0u; // bit SHAPE_...: there is a node of this kind
 layout(constant_id = 12) const uint moving = 0u;
+layout(constant_id = 13) const uint writes_ends = 0u;
 
 /// Where there are few, by selection: an index that is not a constant would put them all into memory.
 Occluder occluder_at(uint k) {
@@ -133,6 +135,10 @@ void main() {
     uint i = invocation_index();
     prepare();
     if (i < params.point_count) {
-        results[i] = deformed(i);
+        VertexResult result = deformed(i);
+        results[i] = result;
+        if (writes_ends != 0u) {
+            ends[i] = points[i] + result.displacement;
+        }
     }
 }

@@ -23,14 +23,28 @@ class DeformSession {
 
     /// The last update's result, one entry per point. @throws DeviceError, InternalError before an update.
     virtual std::vector<PointResult> download() = 0;
+
+    /// The last update's normals, one for each run of the input's fans: unit, or zero where no triangle has
+    /// area. @throws as download().
+    virtual std::vector<Vec3> download_normals() = 0;
+
+    /// Takes up again what has been changed in the input since it was prepared or last refreshed: shape
+    /// functions (`segments` and `shapes`, for as many handles), or `occluders` and `start_distances`; points
+    /// and fields stay. The next update uses it. @throws DeviceError, InternalError on sizes that do not fit.
+    virtual void refresh_shapes() = 0;
+    virtual void refresh_occluders() = 0;
 };
 
 class Backend {
   public:
     virtual ~Backend() = default;
 
-    /// @throws DeviceError if the device cannot hold the input.
-    virtual std::unique_ptr<DeformSession> prepare(const DeformInput& input) = 0;
+    /// The session reads the input during its calls; between them its owner may change it as refresh_shapes()
+    /// and refresh_occluders() say. @throws DeviceError if the device cannot hold the input.
+    virtual std::unique_ptr<DeformSession> prepare(std::shared_ptr<const DeformInput> input) = 0;
+    std::unique_ptr<DeformSession> prepare(DeformInput input) {
+        return prepare(std::make_shared<const DeformInput>(std::move(input)));
+    }
     virtual std::string device_name() const = 0;
     virtual std::string driver_name() const = 0;
 };

@@ -16,7 +16,10 @@ CpuKernel::CpuKernel(const DeformInput& input, const DeformMotion& motion)
     kernel_.shapes = table_.shapes.data();
     kernel_.targets = motion.targets.data();
     kernel_.poses = poses_.data();
-    kernel_.start_distances = input.start_distances.data();
+    if (input.start_distances.empty()) {
+        far_.assign(input.points.size(), infinity);
+    }
+    kernel_.start_distances = input.start_distances.empty() ? far_.data() : input.start_distances.data();
 }
 
 } // namespace anvil

@@ -63,7 +63,7 @@ void check_sizes(const DeformInput& input, const DeformMotion& motion) {
     const size_t k = input.handle_count;
     const bool fits = input.fields.size() == k * n && input.shapes.size() == k &&
                       (input.occluders.empty() || input.start_distances.size() == n) &&
-                      fits_handles(motion, k);
+                      fits_handles(motion, k) && input.fans.normal_count() <= n + input.fans.rim.size();
     if (!fits) {
         throw InternalError("the deformation's input and motion do not fit each other");
     }

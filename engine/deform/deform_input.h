@@ -8,6 +8,17 @@
 
 namespace anvil {
 
+/// The triangles around an input's n points, for normals that follow them. Vertices are numbered: the points,
+/// then those of `rim`.
+struct NormalFans {
+    std::vector<Vec3> rim;       ///< places that stand still, relative to the local origin
+    std::vector<uint32_t> begin; ///< normal_count() + 1 runs of `corners`, for the first so many vertices
+    std::vector<kernel::f64::FanCorner> corners;
+
+    bool empty() const { return begin.empty(); }
+    size_t normal_count() const { return empty() ? 0 : begin.size() - 1; }
+};
+
 /// The part of an edit that does not change while it is dragged. Lengths in world units relative to the
 /// edit's local origin.
 struct DeformInput {
@@ -22,6 +33,7 @@ struct DeformInput {
     /// where contact acts), negative if it is inside any; empty without occluders. See
     /// find_start_distances().
     std::vector<double> start_distances;
+    NormalFans fans; ///< empty: no normals are asked for
 };
 
 /// Fills input.start_distances from input.points and input.occluders, on all cores.

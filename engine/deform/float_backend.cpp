@@ -1,6 +1,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel_for.h"
 #include "engine/deform/backend.h"
+#include "engine/deform/fan_normals.h"
 #include "engine/deform/float_loop.h"
 #include "engine/deform/narrow.h"
 
@@ -24,34 +25,36 @@ std::vector<float> narrow_numbers(const std::vector<double>& values) {
     return result;
 }
 
-DeformInput header_of(const DeformInput& input) {
-    DeformInput header;
-    header.handle_count = input.handle_count;
-    header.occluders = input.occluders;
-    return header;
-}
-
 class FloatSession final : public DeformSession {
   public:
-    FloatSession(const DeformInput& input, FloatLoop loop)
-        : loop_(loop), header_(header_of(input)), points_(narrow_vector(input.points)),
-          fields_(narrow_numbers(input.fields)), start_distances_(narrow_numbers(input.start_distances)),
-          occluders_(narrow_vector(input.occluders.occluders)), nodes_(narrow_vector(input.occluders.nodes)),
-          results_(input.points.size()) {
-        start_distances_.resize(points_.size(), narrowed(infinity));
-        const SegmentTable table = segment_table(input);
+    FloatSession(std::shared_ptr<const DeformInput> input, FloatLoop loop)
+        : loop_(loop), input_(std::move(input)), points_(narrow_vector(input_->points)),
+          fields_(narrow_numbers(input_->fields)), results_(points_.size()) {
+        refresh_occluders();
+    }
+
+    void refresh_shapes() override {
+        const SegmentTable table = segment_table(*input_);
         segments_ = narrow_vector(table.segments);
         shapes_ = narrow_vector(table.shapes);
     }
 
+    void refresh_occluders() override {
+        start_distances_ = narrow_numbers(input_->start_distances);
+        start_distances_.resize(points_.size(), narrowed(infinity));
+        occluders_ = narrow_vector(input_->occluders.occluders);
+        nodes_ = narrow_vector(input_->occluders.nodes);
+        refresh_shapes(); // influence curves are among the segments
+    }
+
     void update(const DeformMotion& motion) override {
-        if (!fits_handles(motion, header_.handle_count)) {
+        if (!fits_handles(motion, input_->handle_count)) {
             throw InternalError("the deformation's input and motion do not fit each other");
         }
         const auto targets = narrow_vector(motion.targets);
-        const auto poses = narrow_vector(kernel_poses(header_, motion));
+        const auto poses = narrow_vector(kernel_poses(*input_, motion));
         FloatArrays arrays;
-        arrays.params = narrowed(kernel_params(header_, motion));
+        arrays.params = narrowed(kernel_params(*input_, motion));
         arrays.params.point_count = static_cast<uint32_t>(points_.size());
         arrays.params.field_stride = arrays.params.point_count;
         arrays.points = points_;
@@ -63,8 +66,8 @@ class FloatSession final : public DeformSession {
         arrays.nodes = nodes_;
         arrays.targets = targets;
         arrays.poses = poses;
-        arrays.volumes = header_.occluders.volumes;
-        arrays.field_words = header_.occluders.words();
+        arrays.volumes = input_->occluders.volumes;
+        arrays.field_words = input_->occluders.words();
         arrays.results = results_;
         parallel_for(points_.size(), 256, [&](size_t begin, size_t end) { loop_(arrays, begin, end); });
         ready_ = true;
@@ -84,9 +87,16 @@ class FloatSession final : public DeformSession {
         return results;
     }
 
+    std::vector<Vec3> download_normals() override {
+        std::vector<Vec3> ends;
+        std::vector<Vec3> normals;
+        find_fan_normals(*input_, download(), ends, normals);
+        return normals;
+    }
+
   private:
     FloatLoop loop_;
-    DeformInput header_; ///< the input without its per-point arrays
+    std::shared_ptr<const DeformInput> input_;
     std::vector<glm::vec3> points_;
     std::vector<float> fields_;
     std::vector<float> start_distances_;
@@ -102,8 +112,8 @@ class FloatBackend final : public Backend {
   public:
     explicit FloatBackend(bool avx2) : avx2_(avx2) {}
 
-    std::unique_ptr<DeformSession> prepare(const DeformInput& input) override {
-        return std::make_unique<FloatSession>(input, avx2_ ? avx2_float_loop : plain_float_loop);
+    std::unique_ptr<DeformSession> prepare(std::shared_ptr<const DeformInput> input) override {
+        return std::make_unique<FloatSession>(std::move(input), avx2_ ? avx2_float_loop : plain_float_loop);
     }
     std::string device_name() const override { return "cpu, float"; }
     std::string driver_name() const override {

@@ -7,6 +7,23 @@
 
 namespace anvil {
 
+LocalFrame local_frame(const Mesh& mesh) {
+    const Box box = bounds(mesh);
+    return {box.empty() ? Vec3(0) : box.centre(), box.diagonal()};
+}
+
+void set_shapes(const EditRegion& region, DeformInput& input) {
+    input.segments.clear();
+    input.shapes.clear();
+    for (const ShapeFunction& shape : region.shapes) {
+        input.shapes.push_back(
+            {static_cast<uint32_t>(input.segments.size()), static_cast<uint32_t>(shape.segments().size())});
+        for (const auto& s : shape.segments()) {
+            input.segments.push_back({s.begin, s.c0, s.c1, s.c2, s.c3});
+        }
+    }
+}
+
 DeformInput deform_input(const EditRegion& region, std::span<const Vec3> positions, const Vec3& origin,
                          OccluderSet occluders) {
     DeformInput input;
@@ -16,13 +33,7 @@ DeformInput deform_input(const EditRegion& region, std::span<const Vec3> positio
     for (const uint32_t v : region.vertices) {
         input.points.push_back(positions[v] - origin);
     }
-    for (const ShapeFunction& shape : region.shapes) {
-        input.shapes.push_back(
-            {static_cast<uint32_t>(input.segments.size()), static_cast<uint32_t>(shape.segments().size())});
-        for (const auto& s : shape.segments()) {
-            input.segments.push_back({s.begin, s.c0, s.c1, s.c2, s.c3});
-        }
-    }
+    set_shapes(region, input);
     input.occluders = std::move(occluders);
     find_start_distances(input);
     return input;

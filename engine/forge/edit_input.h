@@ -9,10 +9,20 @@
 
 namespace anvil {
 
-/// The region's points and fields without their occluders. `positions`: of the whole mesh before the edit,
+/// Back ends compute relative to the centre of the mesh as it was before any edit.
+struct LocalFrame {
+    Vec3 origin{0};      ///< world
+    double diagonal = 0; ///< of the mesh's bounds
+};
+LocalFrame local_frame(const Mesh& mesh);
+
+/// The region's points and fields with the occluders. `positions`: of the whole mesh before the edit,
 /// world; `origin`: the local origin.
 DeformInput deform_input(const EditRegion& region, std::span<const Vec3> positions, const Vec3& origin,
                          OccluderSet occluders);
+
+/// Fills `segments` and `shapes` alone.
+void set_shapes(const EditRegion& region, DeformInput& input);
 
 /// How far an edit reaches; a hammer on a whole mesh: half of its diagonal.
 double largest_radius(const EditRegion& region, double diagonal);

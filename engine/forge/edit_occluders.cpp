@@ -35,7 +35,7 @@ OccluderSet EditOccluders::set_for(const Edit& edit, const OccluderScale& scale,
                                    const std::string& place) const {
     OccluderSet set;
     try {
-        for (const OccluderUse& use : occluders_of(recipe_, edit)) {
+        for (const OccluderUse& use : uses_of(edit)) {
             add_occluder(set, models_.at(use.name), use.name, *use.transform, *use.influence, scale);
             set_motion(set, local_motion(use, edit.amount, scale.origin));
         }

@@ -15,12 +15,16 @@ namespace anvil {
 class EditOccluders {
   public:
     /// Builds the models of all occluders, and bakes those that the recipe says to. The recipe must outlive
-    /// this. @throws InputError naming the place in the recipe; Cancelled.
+    /// this; where its occluders are, move and how they act may change meanwhile, their shapes and fields
+    /// not. @throws InputError naming the place in the recipe; Cancelled.
     EditOccluders(const Recipe& recipe, Log& log, Progress& progress, const FileCache* cache);
 
     /// Those that one edit uses, each where its pose and motion put it. `place` is "edits[i]".
     /// @throws InputError
     OccluderSet set_for(const Edit& edit, const OccluderScale& scale, const std::string& place) const;
+
+    /// Which ones an edit uses, everything filled in.
+    std::vector<OccluderUse> uses_of(const Edit& edit) const { return occluders_of(recipe_, edit); }
 
   private:
     const Recipe& recipe_;

@@ -9,11 +9,6 @@ namespace anvil {
 
 namespace {
 
-struct HandleField {
-    DistanceField distances;
-    double radius;
-};
-
 /// Without sources where handle `j` has no anchors.
 DistanceQuery anchor_query(const Edit& edit, size_t j, Metric metric, const std::optional<double>& radius,
                            const std::string& place, SurfaceState& surface) {
@@ -46,25 +41,28 @@ double half_reach(const DistanceField& field, const std::string& place) {
     return 0.5 * largest;
 }
 
-void sort_unique(std::vector<uint32_t>& vertices) {
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-}
-
-/// Every vertex within some handle's radius, ascending, without the pinned ones.
-std::vector<uint32_t> region_vertices(const std::vector<HandleField>& fields,
-                                      const std::vector<uint32_t>& pinned) {
-    std::vector<uint32_t> vertices;
-    for (const HandleField& field : fields) {
-        for (size_t i = 0; i < field.distances.vertices.size(); ++i) {
-            const uint32_t v = field.distances.vertices[i];
-            if (field.distances.distances[i] <= field.radius &&
-                !std::binary_search(pinned.begin(), pinned.end(), v)) {
-                vertices.push_back(v);
+/// Ascending: every vertex within some handle's radius, without the pinned ones; all where there is no field.
+std::vector<uint32_t> region_vertices(const EditDistances& measured, const std::vector<double>& radii,
+                                      VertexNumbers& numbers) {
+    const auto pinned = [&](uint32_t v) {
+        return std::binary_search(measured.pinned.begin(), measured.pinned.end(), v);
+    };
+    for (size_t j = 0; j < measured.fields.size(); ++j) {
+        const DistanceField& field = measured.fields[j];
+        for (size_t i = 0; i < field.vertices.size(); ++i) {
+            if (field.distances[i] <= radii[j] && !pinned(field.vertices[i])) {
+                numbers.add(field.vertices[i]);
             }
         }
     }
-    sort_unique(vertices);
+    for (uint32_t v = 0; measured.fields.empty() && v < numbers.vertex_count(); ++v) {
+        if (!pinned(v)) {
+            numbers.add(v);
+        }
+    }
+    std::vector<uint32_t> vertices = numbers.vertices();
+    numbers.clear();
+    std::sort(vertices.begin(), vertices.end());
     return vertices;
 }
 
@@ -75,47 +73,40 @@ size_t place_of(const std::vector<uint32_t>& vertices, uint32_t v) {
                                                   : vertices.size();
 }
 
-void fill_fields(const std::vector<HandleField>& fields, EditRegion& region) {
+void fill_fields(const EditDistances& measured, EditRegion& region, VertexNumbers& numbers) {
     const size_t n = region.vertices.size();
-    region.fields.assign(fields.size() * n, infinity);
-    for (size_t j = 0; j < fields.size(); ++j) {
-        const DistanceField& field = fields[j].distances;
+    for (const uint32_t v : region.vertices) {
+        numbers.add(v);
+    }
+    region.fields.assign(measured.fields.size() * n, infinity);
+    for (size_t j = 0; j < measured.fields.size(); ++j) {
+        const DistanceField& field = measured.fields[j];
         for (size_t i = 0; i < field.vertices.size(); ++i) {
-            const size_t at = place_of(region.vertices, field.vertices[i]);
-            if (at < n) {
-                region.fields[j * n + at] = field.distances[i] / fields[j].radius;
+            const uint32_t at = numbers[field.vertices[i]];
+            if (at != no_index) {
+                region.fields[j * n + at] = field.distances[i] / region.radii[j];
             }
         }
     }
+    numbers.clear();
 }
 
 std::string handle_place(const std::string& place, size_t j) {
     return place + ".handles[" + std::to_string(j) + "]";
 }
 
-/// Takes the radius from the query, or the default.
-HandleField bounded(DistanceField&& distances, const DistanceQuery& query, const std::string& place) {
-    const double radius = std::isinf(query.radius) ? half_reach(distances, place) : query.radius;
-    return {std::move(distances), radius};
+double radius_within(const DistanceField& field, const DistanceQuery& query, const std::string& place) {
+    return std::isinf(query.radius) ? half_reach(field, place) : query.radius;
 }
 
-/// Without handles: within the radius of the anchors, or everywhere.
-EditRegion hammered_region(const Edit& edit, const std::string& place, SurfaceState& surface) {
-    EditRegion region;
-    const std::vector<uint32_t> pinned = pinned_vertices(edit, place, surface);
+/// Without handles: from the anchors, if there are any.
+void measure_from_anchors(const Edit& edit, const std::string& place, SurfaceState& surface,
+                          EditDistances& measured) {
     if (!edit.anchors.empty()) {
         const DistanceQuery query = anchor_query(edit, 0, edit.metric, edit.radius, place, surface);
-        const HandleField field = bounded(std::move(surface.distances({&query, 1})[0]), query, place);
-        region.radii.push_back(field.radius);
-        region.vertices = region_vertices({field}, pinned);
-        return region;
+        measured.fields = surface.distances({&query, 1});
+        measured.radii.push_back(radius_within(measured.fields[0], query, place));
     }
-    for (uint32_t v = 0; v < surface.vertex_count(); ++v) {
-        if (!std::binary_search(pinned.begin(), pinned.end(), v)) {
-            region.vertices.push_back(v);
-        }
-    }
-    return region;
 }
 
 std::string method_name(Metric metric, const DistanceField& field) {
@@ -130,8 +121,8 @@ std::string method_name(Metric metric, const DistanceField& field) {
 DistanceQuery query_of(const Edit& edit, size_t j, const SurfacePoint& handle_point, const std::string& place,
                        SurfaceState& surface) {
     const Handle& handle = edit.handles[j];
-    DistanceQuery query = anchor_query(edit, j, handle.metric.value_or(edit.metric),
-                                       handle.radius ? handle.radius : edit.radius, place, surface);
+    DistanceQuery query =
+        anchor_query(edit, j, handle.metric.value_or(edit.metric), given_radius(edit, j), place, surface);
     if (query.anchors.empty()) {
         query.anchors.emplace_back().points.push_back(handle_point);
     }
@@ -147,7 +138,8 @@ std::vector<uint32_t> pinned_vertices(const Edit& edit, const std::string& place
             pinned.push_back(w.vertex);
         }
     }
-    sort_unique(pinned);
+    std::sort(pinned.begin(), pinned.end());
+    pinned.erase(std::unique(pinned.begin(), pinned.end()), pinned.end());
     return pinned;
 }
 
@@ -156,30 +148,60 @@ double EditRegion::weight(size_t j, uint32_t v) const {
     return at < vertices.size() ? shapes[j](fields[j * vertices.size() + at]) : 0;
 }
 
-EditRegion find_region(const Edit& edit, const std::string& place, SurfaceState& surface) {
-    if (edit.handles.empty()) {
-        return hammered_region(edit, place, surface);
+std::optional<double> given_radius(const Edit& edit, size_t j) {
+    return j < edit.handles.size() && edit.handles[j].radius ? edit.handles[j].radius : edit.radius;
+}
+
+std::vector<ShapeFunction> shapes_of(const Edit& edit) {
+    std::vector<ShapeFunction> shapes;
+    for (const Handle& handle : edit.handles) {
+        shapes.push_back(make_shape_function(handle.shape.value_or(edit.shape)));
     }
-    EditRegion region;
+    return shapes;
+}
+
+EditDistances measure_distances(const Edit& edit, const std::string& place, SurfaceState& surface) {
+    EditDistances measured;
     std::vector<DistanceQuery> queries;
     for (size_t j = 0; j < edit.handles.size(); ++j) {
-        const Handle& handle = edit.handles[j];
-        const SurfacePoint point = surface.resolve(handle.at, handle_place(place, j) + ".at");
-        region.handle_positions.push_back(surface.position_of(point));
-        region.handle_weights.push_back(surface.weights_of(point));
-        region.shapes.push_back(make_shape_function(handle.shape.value_or(edit.shape)));
+        const SurfacePoint point = surface.resolve(edit.handles[j].at, handle_place(place, j) + ".at");
+        measured.handle_positions.push_back(surface.position_of(point));
+        measured.handle_weights.push_back(surface.weights_of(point));
         queries.push_back(query_of(edit, j, point, place, surface));
     }
-    std::vector<HandleField> fields;
-    for (DistanceField& distances : surface.distances(queries)) {
-        const size_t j = fields.size();
-        region.methods.push_back(method_name(queries[j].metric, distances));
-        fields.push_back(bounded(std::move(distances), queries[j], handle_place(place, j)));
-        region.radii.push_back(fields.back().radius);
+    if (edit.handles.empty()) {
+        measure_from_anchors(edit, place, surface, measured);
+    } else {
+        measured.fields = surface.distances(queries);
     }
-    region.vertices = region_vertices(fields, pinned_vertices(edit, place, surface));
-    fill_fields(fields, region);
+    for (size_t j = 0; j < queries.size(); ++j) {
+        const DistanceField& field = measured.fields[j];
+        measured.methods.push_back(method_name(queries[j].metric, field));
+        measured.radii.push_back(radius_within(field, queries[j], handle_place(place, j)));
+    }
+    measured.pinned = pinned_vertices(edit, place, surface);
+    return measured;
+}
+
+EditRegion region_within(const Edit& edit, const EditDistances& measured, const std::vector<double>& radii,
+                         VertexNumbers& numbers) {
+    EditRegion region;
+    region.handle_positions = measured.handle_positions;
+    region.handle_weights = measured.handle_weights;
+    region.radii = radii;
+    region.methods = measured.methods;
+    region.shapes = shapes_of(edit);
+    region.vertices = region_vertices(measured, radii, numbers);
+    if (!edit.handles.empty()) {
+        fill_fields(measured, region, numbers);
+    }
     return region;
+}
+
+EditRegion find_region(const Edit& edit, const std::string& place, SurfaceState& surface) {
+    VertexNumbers numbers(surface.vertex_count());
+    const EditDistances measured = measure_distances(edit, place, surface);
+    return region_within(edit, measured, measured.radii, numbers);
 }
 
 } // namespace anvil

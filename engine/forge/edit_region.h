@@ -4,6 +4,7 @@
 #include "engine/edit/recipe.h"
 #include "engine/edit/shape_function.h"
 #include "engine/forge/surface_state.h"
+#include "engine/mesh/vertex_numbers.h"
 
 #include <string>
 #include <vector>
@@ -25,8 +26,33 @@ struct EditRegion {
     double weight(size_t j, uint32_t v) const;
 };
 
+/// What an edit's handles are measured from and how far everything is from them: what its region is cut out
+/// of, for these radii or smaller ones. Without handles: one field, or none, as `radii` of EditRegion.
+struct EditDistances {
+    std::vector<Vec3> handle_positions;
+    std::vector<std::vector<VertexWeight>> handle_weights;
+    std::vector<DistanceField> fields;
+    std::vector<double> radii; ///< the handle's, the edit's, or half of the largest finite distance
+    std::vector<std::string> methods;
+    std::vector<uint32_t> pinned; ///< ascending
+};
+
 /// @throws InputError with `place` ("edits[2]") in front: bad addresses, a radius that cannot be defaulted.
+EditDistances measure_distances(const Edit& edit, const std::string& place, SurfaceState& surface);
+
+/// The region by the distances, for `radii` not larger than the measured ones. `numbers` of the mesh's
+/// vertices, clear before and after. O(region), or O(mesh) where the whole mesh takes part.
+EditRegion region_within(const Edit& edit, const EditDistances& measured, const std::vector<double>& radii,
+                         VertexNumbers& numbers);
+
+/// Both. @throws InputError as measure_distances() does.
 EditRegion find_region(const Edit& edit, const std::string& place, SurfaceState& surface);
+
+/// The shape functions of the edit's handles. @throws InputError as make_shape_function() does.
+std::vector<ShapeFunction> shapes_of(const Edit& edit);
+
+/// Radius of handle `j` as the edit gives it (of the anchors where there are no handles).
+std::optional<double> given_radius(const Edit& edit, size_t j);
 
 /// How the distances of handle `j` are measured, and what from: its anchors, or `handle_point`.
 DistanceQuery query_of(const Edit& edit, size_t j, const SurfacePoint& handle_point, const std::string& place,

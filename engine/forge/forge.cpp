@@ -48,9 +48,9 @@ class Forger {
         result_.positions = file_.positions;
         result_.moved.assign(mesh.vertex_count(), false);
         result_.weights.assign(mesh.vertex_count(), 0.0F);
-        const Box box = bounds(mesh);
-        origin_ = box.empty() ? Vec3(0) : box.centre();
-        diagonal_ = box.diagonal();
+        const LocalFrame frame = local_frame(mesh);
+        origin_ = frame.origin;
+        diagonal_ = frame.diagonal;
     }
 
     ForgeResult run() {
@@ -269,7 +269,7 @@ class Forger {
     void report_contact(const Edit& edit, const EditRegion& region, const DeformInput& input,
                         const EditEnds& ends, EditReport& report) {
         std::vector<std::string> names;
-        for (const OccluderUse& use : occluders_of(recipe_, edit)) {
+        for (const OccluderUse& use : occluders_->uses_of(edit)) {
             names.push_back(use.name);
         }
         report.contact = contact_of(input, ends, region, mesh(), result_.positions, origin_);

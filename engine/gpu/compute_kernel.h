@@ -18,6 +18,9 @@ struct BufferRange {
     uint64_t bytes = 0;
 
     explicit BufferRange(const Buffer& whole) : buffer(&whole), bytes(whole.size()) {}
+    /// `first`: a multiple of 256, which every device's minStorageBufferOffsetAlignment divides.
+    BufferRange(const Buffer& whole, uint64_t first, uint64_t size)
+        : buffer(&whole), offset(first), bytes(size) {}
 };
 
 /// What a binding holds; binding i of the shader's set 0 is entry i of the list.

@@ -1,5 +1,6 @@
 #include "engine/gpu/deform_pipeline.h"
 
+#include "engine/gpu/normals_pass.h"
 #include "engine/occluder/kernel_types.h"
 
 #include "embedded/deform.comp.h"
@@ -20,7 +21,7 @@ constexpr size_t few_nodes = 8;
 std::vector<ResourceKind> deform_resources() {
     std::vector<ResourceKind> kinds(9, ResourceKind::storage_buffer);
     kinds.insert(kinds.end(), kernel::f32::MAX_VOLUMES, ResourceKind::volume_texture);
-    kinds.insert(kinds.end(), 2, ResourceKind::storage_buffer); // poses, words of adaptive fields
+    kinds.insert(kinds.end(), 3, ResourceKind::storage_buffer); // poses, words of adaptive fields, ends
     return kinds;
 }
 
@@ -56,7 +57,8 @@ DeformVariant DeformVariant::of(const OccluderSet& occluders, const kernel::f32:
 }
 
 DeformPipeline::DeformPipeline(std::shared_ptr<Device> device)
-    : device_(std::move(device)), no_volume_(device_->state(), {1, 1, 1}, std::array<float, 4>{}),
+    : device_(std::move(device)), normals_kernel_(make_normals_kernel(device_->state())),
+      no_volume_(device_->state(), {1, 1, 1}, std::array<float, 4>{}),
       no_words_(storage_buffer(device_->state(), std::span<const uint32_t>(std::array<uint32_t, 1>{}))) {}
 
 const ComputeKernel& DeformPipeline::kernel(const DeformVariant& variant) {
@@ -65,11 +67,11 @@ const ComputeKernel& DeformPipeline::kernel(const DeformVariant& variant) {
             return *kernel;
         }
     }
-    const std::array<uint32_t, 13> constants{variant.occluders,   variant.volumes,        variant.paper,
+    const std::array<uint32_t, 14> constants{variant.occluders,   variant.volumes,        variant.paper,
                                              variant.motion,      variant.steps,          variant.one_sample,
                                              variant.shape_kinds, variant.occluder_count, variant.node_count,
                                              variant.node_counts, variant.kinds,          variant.influences,
-                                             variant.moving};
+                                             variant.moving,      variant.writes_ends};
     const std::span<const uint32_t> spirv =
         variant.few ? std::span<const uint32_t>(deform_few_comp) : std::span<const uint32_t>(deform_comp);
     kernels_.emplace_back(variant, std::make_unique<ComputeKernel>(

@@ -31,6 +31,7 @@ struct DeformVariant {
     uint32_t kinds = 0;       ///< of each node
     uint32_t influences = 0;  ///< of each occluder
     uint32_t moving = 0;      ///< 1: occluders move
+    uint32_t writes_ends = 0; ///< 1: into a buffer of places too
     bool few = false; ///< up to 4 occluders and 8 nodes: kept in registers (no constant: another shader)
 
     /// The least variant for an edit.
@@ -48,6 +49,8 @@ class DeformPipeline {
 
     /// Compiled at the first call; stays as long as this object. @throws DeviceError
     const ComputeKernel& kernel(const DeformVariant& variant);
+
+    const ComputeKernel& normals_kernel() const { return normals_kernel_; }
 
     /// The field as a texture; uploaded once as long as both live. @throws DeviceError
     std::shared_ptr<const VolumeTexture> texture(const std::shared_ptr<const DistanceVolume>& volume);
@@ -67,6 +70,7 @@ class DeformPipeline {
 
     std::shared_ptr<Device> device_;
     std::vector<std::pair<DeformVariant, std::unique_ptr<ComputeKernel>>> kernels_;
+    ComputeKernel normals_kernel_;
     VolumeTexture no_volume_;
     Buffer no_words_;
     Cache<DistanceVolume, VolumeTexture> textures_;

@@ -11,8 +11,8 @@ class GpuBackend final : public Backend {
     GpuBackend(std::shared_ptr<Device> device, const GpuBackendOptions& options)
         : pipeline_(std::make_shared<DeformPipeline>(std::move(device))), options_(options) {}
 
-    std::unique_ptr<DeformSession> prepare(const DeformInput& input) override {
-        return std::make_unique<GpuSession>(pipeline_, input, options_.chunk_bytes);
+    std::unique_ptr<DeformSession> prepare(std::shared_ptr<const DeformInput> input) override {
+        return std::make_unique<GpuSession>(pipeline_, std::move(input), options_.chunk_bytes);
     }
     std::string device_name() const override { return pipeline_->info().name; }
     std::string driver_name() const override { return pipeline_->info().driver; }

@@ -31,7 +31,8 @@ uint32_t points_per_chunk(const DeviceState& device, size_t handle_count, uint64
     const uint64_t guards = guard_count * sizeof(VertexResult);
     const uint64_t by_results = bytes > guards ? (bytes - guards) / sizeof(VertexResult) : 0;
     const uint64_t by_fields = bytes / (std::max<size_t>(handle_count, 1) * sizeof(float));
-    const uint64_t count = std::min({by_results, by_fields, uint64_t{1} << 30});
+    // Whole workgroups: every offset into a buffer of all points is one that devices bind.
+    const uint64_t count = std::min({by_results, by_fields, uint64_t{1} << 30}) / guard_count * guard_count;
     if (count == 0) {
         throw DeviceError("device \"" + device.info.name + "\" cannot bind buffers large enough for " +
                           std::to_string(handle_count) + " handles");
@@ -74,43 +75,30 @@ DeformMotion still(size_t handle_count) {
     return motion;
 }
 
-DeformInput header_of(const DeformInput& input) {
-    DeformInput header;
-    header.handle_count = input.handle_count;
-    header.occluders = input.occluders;
-    return header;
-}
-
 } // namespace
 
-GpuSession::GpuSession(std::shared_ptr<DeformPipeline> pipeline, const DeformInput& input,
+GpuSession::GpuSession(std::shared_ptr<DeformPipeline> pipeline, std::shared_ptr<const DeformInput> input,
                        uint64_t chunk_bytes)
-    : pipeline_(std::move(pipeline)), header_(header_of(input)), point_count_(input.points.size()),
-      commands_(pipeline_->device()) {
-    check_sizes(input, still(input.handle_count));
-    if (input.occluders.volumes.size() > kernel::f32::MAX_VOLUMES) {
-        throw InternalError("an edit has more densely sampled fields than the kernel binds");
-    }
+    : pipeline_(std::move(pipeline)), input_(std::move(input)), commands_(pipeline_->device()) {
+    check_sizes(*input_, still(input_->handle_count));
     DeviceState& device = pipeline_->device();
-    for (const auto& volume : input.occluders.volumes) {
-        volumes_.push_back(pipeline_->texture(volume));
+    const size_t n = input_->points.size();
+    const uint32_t most = points_per_chunk(device, input_->handle_count, chunk_bytes);
+    for (size_t first = 0; first < n; first += most) {
+        chunks_.push_back(make_chunk(static_cast<uint32_t>(first),
+                                     static_cast<uint32_t>(std::min<size_t>(most, n - first))));
     }
-    if (input.occluders.field_words) {
-        field_words_ = pipeline_->field_words(input.occluders.field_words);
+    if (!input_->fans.empty()) {
+        make_ends();
+        normals_.emplace(device, pipeline_->normals_kernel(), input_->fans, ends_, chunk_bytes);
     }
-    const SegmentTable table = segment_table(input);
-    shapes_ = narrow_buffer(device, table.shapes);
-    segments_ = narrow_buffer(device, table.segments);
-    occluders_ = narrow_buffer(device, input.occluders.occluders);
-    nodes_ = narrow_buffer(device, input.occluders.nodes);
     poses_ = narrow_buffer(device, std::vector<kernel::f64::Pose>(1));
-    upload_targets(std::vector<Vec3>(input.handle_count, Vec3(0)));
-    const uint32_t most = points_per_chunk(device, input.handle_count, chunk_bytes);
-    for (size_t first = 0; first < point_count_; first += most) {
-        chunks_.push_back(
-            make_chunk(input, first, static_cast<uint32_t>(std::min<size_t>(most, point_count_ - first))));
-    }
-    std::for_each(chunks_.begin(), chunks_.end(), [this](Chunk& chunk) { bind_resources(chunk); });
+    targets_ = storage_buffer(
+        device, std::span<const glm::vec3>(std::vector<glm::vec3>(std::max<size_t>(input_->handle_count, 1))),
+        MemoryUse::upload);
+    take_shapes();
+    take_occluders();
+    bind_resources();
 }
 
 GpuSession::~GpuSession() {
@@ -121,21 +109,80 @@ GpuSession::~GpuSession() {
     }
 }
 
-GpuSession::Chunk GpuSession::make_chunk(const DeformInput& input, size_t first, uint32_t count) {
+GpuSession::Chunk GpuSession::make_chunk(uint32_t first, uint32_t count) const {
     DeviceState& device = pipeline_->device();
     Chunk chunk;
+    chunk.first = first;
     chunk.count = count;
-    chunk.points = narrow_buffer(device, std::span<const Vec3>(input.points).subspan(first, count));
-    chunk.fields = field_buffer(device, input, first, count);
-    chunk.start_distances = start_distance_buffer(device, input, first, count);
+    chunk.points = narrow_buffer(device, std::span<const Vec3>(input_->points).subspan(first, count));
+    chunk.fields = field_buffer(device, *input_, first, count);
+    chunk.start_distances = start_distance_buffer(device, *input_, first, count);
     chunk.results = result_buffer(device, count);
     return chunk;
 }
 
-void GpuSession::bind_resources(Chunk& chunk) {
+/// The kernels write the points' places; the rim's are those for good.
+void GpuSession::make_ends() {
+    const std::vector<Vec3>& rim = input_->fans.rim;
+    const uint64_t points = input_->points.size() * sizeof(glm::vec3);
+    ends_ = Buffer(pipeline_->device(), std::max<uint64_t>(points + rim.size() * sizeof(glm::vec3), 4),
+                   vk::BufferUsageFlagBits::eStorageBuffer, MemoryUse::device);
+    const std::vector<glm::vec3> narrow = narrowed(std::span<const Vec3>(rim));
+    ends_.write(points, std::as_bytes(std::span(narrow)));
+}
+
+void GpuSession::take_shapes() {
+    const SegmentTable table = segment_table(*input_);
+    shapes_ = narrow_buffer(pipeline_->device(), table.shapes);
+    segments_ = narrow_buffer(pipeline_->device(), table.segments);
+}
+
+void GpuSession::take_occluders() {
+    const OccluderSet& set = input_->occluders;
+    if (set.volumes.size() > kernel::f32::MAX_VOLUMES) {
+        throw InternalError("an edit has more densely sampled fields than the kernel binds");
+    }
+    volumes_.clear();
+    for (const auto& volume : set.volumes) {
+        volumes_.push_back(pipeline_->texture(volume));
+    }
+    field_words_ = set.field_words ? pipeline_->field_words(set.field_words) : nullptr;
+    occluders_ = narrow_buffer(pipeline_->device(), set.occluders);
+    nodes_ = narrow_buffer(pipeline_->device(), set.nodes);
+}
+
+void GpuSession::refresh_shapes() {
+    check_sizes(*input_, still(input_->handle_count));
+    commands_.wait();
+    take_shapes();
+    bind_resources();
+}
+
+void GpuSession::refresh_occluders() {
+    check_sizes(*input_, still(input_->handle_count));
+    commands_.wait();
+    take_shapes(); // influence curves are among the segments
+    take_occluders();
+    for (Chunk& chunk : chunks_) {
+        if (!input_->start_distances.empty()) {
+            const std::span<const double> all = input_->start_distances;
+            const std::vector<float> narrow = narrowed(all.subspan(chunk.first, chunk.count));
+            chunk.start_distances.write_all(std::span<const float>(narrow));
+        }
+    }
+    bind_resources();
+}
+
+void GpuSession::bind_resources() {
+    std::for_each(chunks_.begin(), chunks_.end(), [this](Chunk& chunk) { bind_resources(chunk); });
+}
+
+void GpuSession::bind_resources(Chunk& chunk) const {
     chunk.resources.clear(); // in the order of the shader's bindings
-    for (const Buffer* buffer : {&chunk.points, &chunk.fields, &chunk.start_distances, &shapes_, &segments_,
-                                 &occluders_, &nodes_, &targets_, &chunk.results}) {
+    const std::initializer_list<const Buffer*> buffers = {
+        &chunk.points, &chunk.fields, &chunk.start_distances, &shapes_, &segments_, &occluders_,
+        &nodes_,       &targets_,     &chunk.results};
+    for (const Buffer* buffer : buffers) {
         chunk.resources.emplace_back(BufferRange(*buffer));
     }
     for (size_t i = 0; i < kernel::f32::MAX_VOLUMES; ++i) {
@@ -143,6 +190,12 @@ void GpuSession::bind_resources(Chunk& chunk) {
     }
     chunk.resources.emplace_back(BufferRange(poses_));
     chunk.resources.emplace_back(BufferRange(field_words_ ? *field_words_ : pipeline_->no_words()));
+    if (input_->fans.empty()) {
+        chunk.resources.emplace_back(BufferRange(pipeline_->no_words()));
+    } else {
+        chunk.resources.emplace_back(
+            BufferRange(ends_, chunk.first * sizeof(glm::vec3), chunk.count * sizeof(glm::vec3)));
+    }
 }
 
 void GpuSession::upload_targets(const std::vector<Vec3>& targets) {
@@ -150,36 +203,42 @@ void GpuSession::upload_targets(const std::vector<Vec3>& targets) {
     std::transform(targets.begin(), targets.end(), std::back_inserter(narrow_targets_),
                    [](const Vec3& v) { return narrowed(v); });
     const std::span<const glm::vec3> values = narrow_targets_;
-    if (values.size_bytes() > targets_.size() || targets_.size() == 0) {
+    if (values.size_bytes() > targets_.size()) {
         targets_ = storage_buffer(pipeline_->device(), values, MemoryUse::upload);
-        std::for_each(chunks_.begin(), chunks_.end(), [this](Chunk& chunk) { bind_resources(chunk); });
+        bind_resources();
         return;
     }
     targets_.write_all(values);
 }
 
 void GpuSession::upload_poses(const DeformMotion& motion) {
-    if (!header_.occluders.moves()) {
+    if (!input_->occluders.moves()) {
         return;
     }
-    poses_ = narrow_buffer(pipeline_->device(), kernel_poses(header_, motion));
-    std::for_each(chunks_.begin(), chunks_.end(), [this](Chunk& chunk) { bind_resources(chunk); });
+    poses_ = narrow_buffer(pipeline_->device(), kernel_poses(*input_, motion));
+    bind_resources();
 }
 
 void GpuSession::update(const DeformMotion& motion) {
-    if (!fits_handles(motion, header_.handle_count)) {
+    if (!fits_handles(motion, input_->handle_count)) {
         throw InternalError("the deformation's input and motion do not fit each other");
     }
     const vk::raii::CommandBuffer& commands = commands_.begin(); // waits: the targets are free to be written
     upload_targets(motion.targets);
     upload_poses(motion);
-    kernel::f32::KernelParams params = narrowed(kernel_params(header_, motion));
-    const ComputeKernel& kernel = pipeline_->kernel(DeformVariant::of(header_.occluders, params));
+    kernel::f32::KernelParams params = narrowed(kernel_params(*input_, motion));
+    DeformVariant variant = DeformVariant::of(input_->occluders, params);
+    variant.writes_ends = input_->fans.empty() ? 0 : 1;
+    const ComputeKernel& kernel = pipeline_->kernel(variant);
     guarded("recording the deformation", [&] {
         for (const Chunk& chunk : chunks_) {
             params.point_count = chunk.count;
             params.field_stride = chunk.count;
             kernel.record(commands, chunk.resources, params, chunk.count);
+        }
+        if (normals_) {
+            full_barrier(commands);
+            normals_->record(commands);
         }
     });
     commands_.submit();
@@ -191,12 +250,10 @@ void GpuSession::wait() {
 }
 
 std::vector<PointResult> GpuSession::download() {
-    if (!ready_) {
-        throw InternalError("a session's result was asked for before its first update");
-    }
+    check_ready();
     commands_.wait();
     std::vector<PointResult> results;
-    results.reserve(point_count_);
+    results.reserve(input_->points.size());
     std::vector<VertexResult> raw;
     for (const Chunk& chunk : chunks_) {
         raw.resize(chunk.count + guard_count);
@@ -213,6 +270,18 @@ std::vector<PointResult> GpuSession::download() {
         }
     }
     return results;
+}
+
+std::vector<Vec3> GpuSession::download_normals() {
+    check_ready();
+    commands_.wait();
+    return normals_ ? normals_->download() : std::vector<Vec3>{};
+}
+
+void GpuSession::check_ready() const {
+    if (!ready_) {
+        throw InternalError("a session's result was asked for before its first update");
+    }
 }
 
 } // namespace anvil

@@ -3,6 +3,9 @@
 
 #include "engine/deform/backend.h"
 #include "engine/gpu/deform_pipeline.h"
+#include "engine/gpu/normals_pass.h"
+
+#include <optional>
 
 namespace anvil {
 
@@ -10,16 +13,21 @@ class GpuSession final : public DeformSession {
   public:
     /// `chunk_bytes`: the most that a buffer of one chunk may take. @throws DeviceError, InternalError on
     /// wrong sizes.
-    GpuSession(std::shared_ptr<DeformPipeline> pipeline, const DeformInput& input, uint64_t chunk_bytes);
+    GpuSession(std::shared_ptr<DeformPipeline> pipeline, std::shared_ptr<const DeformInput> input,
+               uint64_t chunk_bytes);
     ~GpuSession() override;
 
     void update(const DeformMotion& motion) override;
     void wait() override;
     std::vector<PointResult> download() override;
+    std::vector<Vec3> download_normals() override;
+    void refresh_shapes() override;
+    void refresh_occluders() override;
 
   private:
     /// Consecutive points with buffers of their own, so that no binding exceeds a device's limit.
     struct Chunk {
+        uint32_t first = 0;
         uint32_t count = 0;
         Buffer points;
         Buffer fields;
@@ -28,14 +36,18 @@ class GpuSession final : public DeformSession {
         std::vector<Resource> resources;
     };
 
-    Chunk make_chunk(const DeformInput& input, size_t first, uint32_t count);
-    void bind_resources(Chunk& chunk);
+    Chunk make_chunk(uint32_t first, uint32_t count) const;
+    void make_ends();
+    void take_shapes();
+    void take_occluders();
+    void bind_resources();
+    void bind_resources(Chunk& chunk) const;
+    void check_ready() const;
     void upload_targets(const std::vector<Vec3>& targets);
     void upload_poses(const DeformMotion& motion);
 
     std::shared_ptr<DeformPipeline> pipeline_;
-    DeformInput header_; ///< the input without its per-point arrays
-    size_t point_count_ = 0;
+    std::shared_ptr<const DeformInput> input_;
     std::vector<std::shared_ptr<const VolumeTexture>> volumes_;
     std::shared_ptr<const Buffer> field_words_; ///< empty: no adaptive field
     Buffer shapes_;
@@ -46,6 +58,8 @@ class GpuSession final : public DeformSession {
     Buffer poses_;
     std::vector<glm::vec3> narrow_targets_;
     std::vector<Chunk> chunks_;
+    Buffer ends_; ///< where the points are, then the rim of the fans; none without fans
+    std::optional<NormalsPass> normals_;
     Commands commands_;
     bool ready_ = false;
 };

@@ -1,6 +1,7 @@
 #include "engine/gpu/surface_vertices.h"
 
 #include "engine/core/error.h"
+#include "engine/mesh/incidence.h"
 
 namespace anvil {
 
@@ -56,30 +57,6 @@ std::vector<Triangle> drawable_triangles(const PictureSurface& surface) {
     return triangles;
 }
 
-/// The triangles at each vertex: those of v are faces[begin[v]] .. faces[begin[v + 1] - 1].
-struct Incidence {
-    std::vector<uint32_t> begin;
-    std::vector<uint32_t> faces;
-};
-
-Incidence incident_faces(std::span<const Triangle> triangles, size_t vertex_count) {
-    Incidence result{std::vector<uint32_t>(vertex_count + 2, 0), std::vector<uint32_t>(3 * triangles.size())};
-    for (const Triangle& t : triangles) {
-        for (const uint32_t v : t) {
-            ++result.begin[v + 2];
-        }
-    }
-    for (size_t v = 2; v < result.begin.size(); ++v) {
-        result.begin[v] += result.begin[v - 1];
-    }
-    for (uint32_t f = 0; f < triangles.size(); ++f) {
-        for (const uint32_t v : triangles[f]) {
-            result.faces[result.begin[v + 1]++] = f;
-        }
-    }
-    return result;
-}
-
 } // namespace
 
 Box bounds(const PictureSurface& surface) {
@@ -95,16 +72,12 @@ Box bounds(const PictureSurface& surface) {
 SurfaceGeometry surface_geometry(const PictureSurface& surface, const glm::dmat4& view) {
     check(surface);
     const std::vector<Triangle> triangles = drawable_triangles(surface);
-    const Incidence incidence = incident_faces(triangles, surface.positions.size());
+    const Incidence incidence = incident_triangles(triangles, surface.positions.size());
     std::vector<glm::vec3> areas;
     areas.reserve(triangles.size());
     for (const Triangle& t : triangles) {
         areas.push_back(face_normal(surface, t));
     }
-    const auto faces_at = [&](uint32_t v) {
-        return std::span(incidence.faces)
-            .subspan(incidence.begin[v], incidence.begin[v + 1] - incidence.begin[v]);
-    };
     const auto turn = glm::mat3(glm::dmat3(view));
     SurfaceGeometry geometry;
     const auto add_vertex = [&](uint32_t v, const glm::vec3& normal) {
@@ -118,11 +91,11 @@ SurfaceGeometry surface_geometry(const PictureSurface& surface, const glm::dmat4
     geometry.vertices.reserve(surface.positions.size());
     for (uint32_t v = 0; v < surface.positions.size(); ++v) {
         glm::vec3 normal(0);
-        for (const uint32_t f : faces_at(v)) {
+        for (const uint32_t f : incidence.at(v)) {
             normal += areas[f];
         }
         normal = unit(normal);
-        for (const uint32_t f : faces_at(v)) {
+        for (const uint32_t f : incidence.at(v)) {
             smooth[v] = smooth[v] && glm::dot(unit(areas[f]), normal) >= smooth_cosine;
         }
         add_vertex(v, normal);
@@ -136,7 +109,7 @@ SurfaceGeometry surface_geometry(const PictureSurface& surface, const glm::dmat4
                 continue;
             }
             glm::vec3 normal(0);
-            for (const uint32_t g : faces_at(v)) {
+            for (const uint32_t g : incidence.at(v)) {
                 if (g == f || glm::dot(unit(areas[g]), flat) >= crease_cosine) {
                     normal += areas[g];
                 }

@@ -141,6 +141,12 @@ struct VertexResult {
     uint flags;
 };
 
+// The two other corners of a triangle, in its order, as seen from one of them.
+struct FanCorner {
+    uint b;
+    uint c;
+};
+
 const real NEWTON_TOLERANCE = 1e-4; // of the occluder's step, when a vertex is put back on a level
 const uint NEWTON_LIMIT = 8u;
 const real CORNER_DEPTH =

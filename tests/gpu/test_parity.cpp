@@ -40,8 +40,8 @@ bool same_bits(const std::vector<PointResult>& a, const std::vector<PointResult>
 class SpoiledBackend final : public Backend {
   public:
     explicit SpoiledBackend(Vec3 fault) : fault_(fault) {}
-    std::unique_ptr<DeformSession> prepare(const DeformInput& input) override {
-        return std::make_unique<Session>(cpu_->prepare(input), fault_);
+    std::unique_ptr<DeformSession> prepare(std::shared_ptr<const DeformInput> input) override {
+        return std::make_unique<Session>(cpu_->prepare(std::move(input)), fault_);
     }
     std::string device_name() const override { return "spoiled"; }
     std::string driver_name() const override { return "spoiled"; }
@@ -56,6 +56,9 @@ class SpoiledBackend final : public Backend {
             results.at(results.size() / 2).displacement += fault_;
             return results;
         }
+        std::vector<Vec3> download_normals() override { return inner_->download_normals(); }
+        void refresh_shapes() override { inner_->refresh_shapes(); }
+        void refresh_occluders() override { inner_->refresh_occluders(); }
         std::unique_ptr<DeformSession> inner_;
         Vec3 fault_;
     };

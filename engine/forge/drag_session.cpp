@@ -1,0 +1,175 @@
+#include "engine/forge/drag_session.h"
+
+#include "engine/core/error.h"
+
+namespace anvil {
+
+namespace {
+
+const std::string place = "edit";
+
+/// What the distances depend on, apart from the radii: all else as in an empty edit.
+Edit question_of(const Edit& edit) {
+    Edit question;
+    question.anchors = edit.anchors;
+    question.pinned = edit.pinned;
+    question.metric = edit.metric;
+    question.method = edit.method;
+    question.smooth_surface = edit.smooth_surface;
+    for (const Handle& handle : edit.handles) {
+        question.handles.emplace_back().at = handle.at;
+        question.handles.back().metric = handle.metric;
+    }
+    return question;
+}
+
+bool same_shapes(const Edit& a, const Edit& b) {
+    bool same = a.shape == b.shape;
+    for (size_t j = 0; j < a.handles.size(); ++j) {
+        same = same && a.handles[j].shape == b.handles[j].shape;
+    }
+    return same;
+}
+
+} // namespace
+
+DragSession::DragSession(DragScene& scene, const EditOccluders& occluders, Backend& backend, const Edit& edit,
+                         Log& log)
+    : scene_(scene), backend_(&backend), log_(log) {
+    update(edit, occluders);
+}
+
+template <class Work>
+auto DragSession::on_device(const Work& work) {
+    try {
+        return work();
+    } catch (const DeviceError& error) {
+        if (fallback_) {
+            throw;
+        }
+        log_.warn(std::string(error.what()) + "; the edit goes on with the CPU");
+        fallback_ = make_cpu_backend();
+        backend_ = fallback_.get();
+        if (now_.session) {
+            now_.session = backend_->prepare(now_.input);
+            now_.session->update(now_.motion.motion);
+        }
+        return work();
+    }
+}
+
+std::optional<std::vector<double>> DragSession::radii_within_measured(const Edit& edit) const {
+    if (!now_.measured || question_of(edit) != question_of(now_.edit)) {
+        return std::nullopt;
+    }
+    std::vector<double> radii;
+    for (size_t j = 0; j < now_.measured->radii.size(); ++j) {
+        const std::optional<double> given = given_radius(edit, j);
+        // Without one the default holds, which wants the whole field.
+        if (given ? !(*given <= now_.measured->radii[j]) : given_radius(now_.edit, j).has_value()) {
+            return std::nullopt;
+        }
+        radii.push_back(given.value_or(now_.measured->radii[j]));
+    }
+    return radii;
+}
+
+void DragSession::update(const Edit& edit, const EditOccluders& occluders) {
+    const std::optional<std::vector<double>> radii = radii_within_measured(edit);
+    if (!radii) {
+        auto measured =
+            std::make_shared<const EditDistances>(measure_distances(edit, place, scene_.surface()));
+        ++work_.distances;
+        now_ = opened(edit, occluders, measured, measured->radii);
+    } else if (*radii != now_.region.radii) {
+        now_ = opened(edit, occluders, now_.measured, *radii);
+    } else {
+        change(edit, occluders);
+    }
+    on_device([this] { now_.session->update(now_.motion.motion); });
+    ++work_.updates;
+}
+
+DragSession::Stage DragSession::opened(const Edit& edit, const EditOccluders& occluders,
+                                       std::shared_ptr<const EditDistances> measured,
+                                       const std::vector<double>& radii) {
+    Stage stage;
+    stage.edit = edit;
+    stage.measured = std::move(measured);
+    stage.region = region_within(edit, *stage.measured, radii, scene_.numbers());
+    OccluderSet set = set_for(edit, occluders, stage.region);
+    stage.uses = occluders.uses_of(edit);
+    stage.motion = motion_of(edit, stage.region, set);
+    const Vec3& origin = scene_.frame().origin;
+    stage.input =
+        std::make_shared<DeformInput>(deform_input(stage.region, scene_.positions(), origin, std::move(set)));
+    RegionFans fans = fans_around(stage.region.vertices, scene_.mesh(), scene_.incidence(),
+                                  scene_.positions(), origin, scene_.numbers());
+    stage.input->fans = std::move(fans.fans);
+    stage.normal_vertices = std::move(fans.vertices);
+    on_device([&] { stage.session = backend_->prepare(stage.input); });
+    ++work_.regions;
+    return stage;
+}
+
+void DragSession::change(const Edit& edit, const EditOccluders& occluders) {
+    OccluderSet set = set_for(edit, occluders, now_.region);
+    std::vector<ShapeFunction> shapes = shapes_of(edit);
+    EditMotion motion;
+    std::swap(shapes, now_.region.shapes);
+    try {
+        motion = motion_of(edit, now_.region, set);
+    } catch (...) {
+        std::swap(shapes, now_.region.shapes);
+        throw;
+    }
+    std::vector<OccluderUse> uses = occluders.uses_of(edit);
+    const bool occluders_stand = uses == now_.uses && set.exact == now_.input->occluders.exact &&
+                                 (!set.moves() || edit.amount == now_.edit.amount);
+    const bool shapes_stand = same_shapes(edit, now_.edit);
+    now_.edit = edit;
+    now_.uses = std::move(uses);
+    now_.motion = std::move(motion);
+    if (!shapes_stand) {
+        set_shapes(now_.region, *now_.input);
+        on_device([this] { now_.session->refresh_shapes(); });
+        ++work_.shapes;
+    }
+    if (!occluders_stand) {
+        now_.input->occluders = std::move(set);
+        find_start_distances(*now_.input);
+        on_device([this] { now_.session->refresh_occluders(); });
+        ++work_.occluders;
+    }
+}
+
+OccluderSet DragSession::set_for(const Edit& edit, const EditOccluders& occluders,
+                                 const EditRegion& region) const {
+    const LocalFrame& frame = scene_.frame();
+    return occluders.set_for(edit, {frame.origin, frame.diagonal, largest_radius(region, frame.diagonal)},
+                             place);
+}
+
+EditMotion DragSession::motion_of(const Edit& edit, const EditRegion& region, const OccluderSet& set) {
+    return find_motion(edit, region, scene_.positions(), scene_.frame().origin, place, set, log_);
+}
+
+void DragSession::wait() {
+    on_device([this] { now_.session->wait(); });
+}
+
+std::vector<Vec3> DragSession::positions() {
+    const std::vector<PointResult> results = on_device([this] { return now_.session->download(); });
+    std::vector<Vec3> places;
+    places.reserve(results.size());
+    for (size_t i = 0; i < results.size(); ++i) {
+        places.push_back(scene_.positions()[now_.region.vertices[i]] + results[i].displacement);
+    }
+    return places;
+}
+
+std::vector<Vec3> DragSession::normals() {
+    return on_device([this] { return now_.session->download_normals(); });
+}
+
+} // namespace anvil
