@@ -45,6 +45,9 @@ class Backend {
     std::unique_ptr<DeformSession> prepare(DeformInput input) {
         return prepare(std::make_shared<const DeformInput>(std::move(input)));
     }
+    /// Does beforehand what takes long before the first update of an edit like this one, whatever its points
+    /// and fields: compiles kernels. From any thread, beside all other work. @throws DeviceError
+    virtual void warm(const DeformInput& /*input*/, const DeformMotion& /*motion*/) {}
     virtual std::string device_name() const = 0;
     virtual std::string driver_name() const = 0;
 };

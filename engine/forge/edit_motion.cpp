@@ -151,6 +151,16 @@ void set_steps(const Steps& steps, DeformMotion& motion) {
     motion.steps = !steps.adaptive && motion.times.size() > 1 ? 1 : steps.count;
 }
 
+Steps steps_of(const Edit& edit, const OccluderSet& occluders) {
+    return edit.steps.value_or(occluders.paper ? Steps{false, paper_steps} : Steps{});
+}
+
+MotionKind kind_of(const Edit& edit) {
+    return edit.kind == EditKind::translate ? MotionKind::straight
+           : edit.sweep == Sweep::arc       ? MotionKind::arc
+                                            : MotionKind::chord;
+}
+
 std::vector<std::string> handle_names(const Edit& edit, const std::string& place) {
     std::vector<std::string> names;
     for (size_t i = 0; i < edit.handles.size(); ++i) {
@@ -207,7 +217,7 @@ EditMotion rotation(const Edit& edit, const EditRegion& region, std::span<const 
         }
     }
     result.motion.times = times;
-    result.motion.kind = edit.sweep == Sweep::arc ? MotionKind::arc : MotionKind::chord;
+    result.motion.kind = kind_of(edit);
     result.motion.axis_origin = turn.origin - origin;
     result.motion.axis_direction = turn.direction;
     return result;
@@ -219,7 +229,7 @@ EditMotion find_motion(const Edit& edit, const EditRegion& region, std::span<con
                        const Vec3& origin, const std::string& place, const OccluderSet& occluders, Log& log) {
     const auto a = system_matrix(region);
     const auto names = handle_names(edit, place);
-    const Steps steps = edit.steps.value_or(occluders.paper ? Steps{false, paper_steps} : Steps{});
+    const Steps steps = steps_of(edit, occluders);
     const std::vector<double> poses = pose_times(occluders);
     EditMotion result =
         edit.kind == EditKind::translate
@@ -227,6 +237,22 @@ EditMotion find_motion(const Edit& edit, const EditRegion& region, std::span<con
             : rotation(edit, region, positions, a, names, sample_times({}, poses, steps), origin, log);
     set_steps(steps, result.motion);
     return result;
+}
+
+DeformMotion foreseen_motion(const Edit& edit, const OccluderSet& occluders) {
+    std::vector<HandlePath> paths;
+    for (const Handle& handle : edit.handles) {
+        if (!handle.path.empty()) {
+            paths.emplace_back(handle.path);
+        }
+    }
+    DeformMotion motion;
+    const Steps steps = steps_of(edit, occluders);
+    motion.kind = kind_of(edit);
+    motion.times = sample_times(paths, pose_times(occluders), steps);
+    motion.targets.resize(edit.handles.size() * motion.times.size());
+    set_steps(steps, motion);
+    return motion;
 }
 
 } // namespace anvil

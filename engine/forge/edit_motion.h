@@ -28,4 +28,7 @@ struct EditMotion {
 EditMotion find_motion(const Edit& edit, const EditRegion& region, std::span<const Vec3> positions,
                        const Vec3& origin, const std::string& place, const OccluderSet& occluders, Log& log);
 
+/// What find_motion() will give for the edit, without its targets: for Backend::warm().
+DeformMotion foreseen_motion(const Edit& edit, const OccluderSet& occluders);
+
 } // namespace anvil

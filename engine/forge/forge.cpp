@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <future>
 #include <optional>
 
 namespace anvil {
@@ -61,6 +62,7 @@ class Forger {
         }
         try {
             build_occluders();
+            const std::future<void> warming = warmed();
             for (size_t i = 0; i < recipe_.edits.size(); ++i) {
                 progress_.report("forge", static_cast<double>(i) / static_cast<double>(recipe_.edits.size()));
                 apply(recipe_.edits[i], "edits[" + std::to_string(i) + "]");
@@ -86,6 +88,25 @@ class Forger {
     void build_occluders() {
         const StageTimer timer(seconds().bake);
         occluders_.emplace(recipe_, log_, progress_, cache_);
+    }
+
+    /// Compiles what the edits need while the first ones' distances are measured.
+    std::future<void> warmed() {
+        std::vector<std::pair<DeformInput, DeformMotion>> likes;
+        for (size_t i = 0; i < recipe_.edits.size(); ++i) {
+            const Edit& edit = recipe_.edits[i];
+            DeformInput like;
+            like.handle_count = edit.handles.size();
+            like.occluders = occluders_->set_for(edit, {origin_, diagonal_, edit.radius.value_or(diagonal_)},
+                                                 "edits[" + std::to_string(i) + "]");
+            DeformMotion motion = foreseen_motion(edit, like.occluders);
+            likes.emplace_back(std::move(like), std::move(motion));
+        }
+        return std::async(std::launch::async, [this, likes = std::move(likes)] {
+            for (const auto& [input, motion] : likes) {
+                backend_.warm(input, motion);
+            }
+        });
     }
 
     void apply(const Edit& edit, const std::string& place) {

@@ -27,7 +27,9 @@ std::vector<ResourceKind> deform_resources() {
 
 } // namespace
 
-DeformVariant DeformVariant::of(const OccluderSet& occluders, const kernel::f32::KernelParams& params) {
+DeformVariant variant_of(const DeformInput& input, const DeformMotion& motion) {
+    const OccluderSet& occluders = input.occluders;
+    const kernel::f64::KernelParams params = kernel_params(input, motion);
     const auto volumes = static_cast<uint32_t>(occluders.volumes.size());
     DeformVariant variant;
     variant.occluders = occluders.empty() ? 0 : 1;
@@ -36,6 +38,7 @@ DeformVariant DeformVariant::of(const OccluderSet& occluders, const kernel::f32:
     variant.moving = params.moving;
     variant.motion = params.motion;
     variant.steps = params.steps;
+    variant.writes_ends = input.fans.empty() ? 0 : 1;
     variant.one_sample = params.sample_count == 1 ? 1 : 0;
     for (const kernel::f64::ShapeNode& node : occluders.nodes) {
         variant.shape_kinds |= 1U << node.kind;
@@ -61,7 +64,13 @@ DeformPipeline::DeformPipeline(std::shared_ptr<Device> device)
       no_volume_(device_->state(), {1, 1, 1}, std::array<float, 4>{}),
       no_words_(storage_buffer(device_->state(), std::span<const uint32_t>(std::array<uint32_t, 1>{}))) {}
 
+size_t DeformPipeline::kernel_count() {
+    const std::scoped_lock lock(mutex_);
+    return kernels_.size();
+}
+
 const ComputeKernel& DeformPipeline::kernel(const DeformVariant& variant) {
+    const std::scoped_lock lock(mutex_); // whoever asks for what is being compiled waits for it
     for (const auto& [known, kernel] : kernels_) {
         if (known == variant) {
             return *kernel;

@@ -2,10 +2,11 @@
 // engine/gpu.
 #pragma once
 
+#include "engine/deform/deform_input.h"
 #include "engine/gpu/compute_kernel.h"
-#include "engine/occluder/occluder_set.h"
 
 #include <memory>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -34,10 +35,11 @@ struct DeformVariant {
     uint32_t writes_ends = 0; ///< 1: into a buffer of places too
     bool few = false; ///< up to 4 occluders and 8 nodes: kept in registers (no constant: another shader)
 
-    /// The least variant for an edit.
-    static DeformVariant of(const OccluderSet& occluders, const kernel::f32::KernelParams& params);
     bool operator==(const DeformVariant&) const = default;
 };
+
+/// The least variant for an edit.
+DeformVariant variant_of(const DeformInput& input, const DeformMotion& motion);
 
 class DeformPipeline {
   public:
@@ -47,8 +49,9 @@ class DeformPipeline {
     DeviceState& device() const { return device_->state(); }
     const DeviceInfo& info() const { return device_->info(); }
 
-    /// Compiled at the first call; stays as long as this object. @throws DeviceError
+    /// Compiled at the first call; stays as long as this object. From any thread. @throws DeviceError
     const ComputeKernel& kernel(const DeformVariant& variant);
+    size_t kernel_count(); ///< compiled so far
 
     const ComputeKernel& normals_kernel() const { return normals_kernel_; }
 
@@ -69,6 +72,7 @@ class DeformPipeline {
     cached(Cache<Source, Upload>& cache, const std::shared_ptr<const Source>& source, const Make& make);
 
     std::shared_ptr<Device> device_;
+    std::mutex mutex_; ///< of kernels_
     std::vector<std::pair<DeformVariant, std::unique_ptr<ComputeKernel>>> kernels_;
     ComputeKernel normals_kernel_;
     VolumeTexture no_volume_;

@@ -14,6 +14,9 @@ class GpuBackend final : public Backend {
     std::unique_ptr<DeformSession> prepare(std::shared_ptr<const DeformInput> input) override {
         return std::make_unique<GpuSession>(pipeline_, std::move(input), options_.chunk_bytes);
     }
+    void warm(const DeformInput& input, const DeformMotion& motion) override {
+        pipeline_->kernel(variant_of(input, motion));
+    }
     std::string device_name() const override { return pipeline_->info().name; }
     std::string driver_name() const override { return pipeline_->info().driver; }
 

@@ -191,7 +191,7 @@ void GpuSession::bind_resources(Chunk& chunk) const {
     chunk.resources.emplace_back(BufferRange(poses_));
     chunk.resources.emplace_back(BufferRange(field_words_ ? *field_words_ : pipeline_->no_words()));
     if (input_->fans.empty()) {
-        chunk.resources.emplace_back(BufferRange(pipeline_->no_words()));
+        chunk.resources.emplace_back(BufferRange(chunk.results)); // not written; chunks must share none
     } else {
         chunk.resources.emplace_back(
             BufferRange(ends_, chunk.first * sizeof(glm::vec3), chunk.count * sizeof(glm::vec3)));
@@ -227,9 +227,7 @@ void GpuSession::update(const DeformMotion& motion) {
     upload_targets(motion.targets);
     upload_poses(motion);
     kernel::f32::KernelParams params = narrowed(kernel_params(*input_, motion));
-    DeformVariant variant = DeformVariant::of(input_->occluders, params);
-    variant.writes_ends = input_->fans.empty() ? 0 : 1;
-    const ComputeKernel& kernel = pipeline_->kernel(variant);
+    const ComputeKernel& kernel = pipeline_->kernel(variant_of(*input_, motion));
     guarded("recording the deformation", [&] {
         for (const Chunk& chunk : chunks_) {
             params.point_count = chunk.count;

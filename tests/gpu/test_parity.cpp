@@ -1,8 +1,11 @@
 // Parity checks execution; that the formulas are right is for the tests of the reference to show.
 #include "engine/core/error.h"
 #include "engine/gpu/gpu_backend.h"
+#include "engine/gpu/gpu_session.h"
 #include "engine/gpu/selftest.h"
 #include "tests/gpu/gpu_test.h"
+
+#include <future>
 
 using namespace anvil;
 
@@ -174,4 +177,24 @@ TEST_CASE("the float loops of the CPU pass what a device has to pass") {
             CHECK((result.passed() || result.deviating > 0));
         }
     }
+}
+
+TEST_CASE("an edit like one that was warmed compiles nothing more, while others are compiled beside it") {
+    const CheckedDevice device;
+    const auto pipeline = std::make_shared<DeformPipeline>(device.shared());
+    const SelftestCase test = case_named("sphere, hard");
+    const SelftestCase other = case_named("two occluders");
+    DeformInput like;
+    like.handle_count = test.input.handle_count;
+    like.occluders = test.input.occluders;
+    pipeline->kernel(variant_of(like, test.motion));
+    CHECK(pipeline->kernel_count() == 1);
+    const auto warming =
+        std::async(std::launch::async, [&] { pipeline->kernel(variant_of(other.input, other.motion)); });
+    GpuSession session(pipeline, std::make_shared<const DeformInput>(test.input), uint64_t{1} << 20);
+    session.update(test.motion);
+    warming.wait();
+    CHECK(pipeline->kernel_count() == 2);
+    const auto expected = run(*make_gpu_backend(device.shared()), test);
+    CHECK(same_bits(session.download(), expected));
 }
