@@ -15,18 +15,20 @@ struct Corner {
     double cosine = 1, sine = 0;
 };
 
-Corner corner_between(double base, double left, double opposite) {
-    if (!(base > 0 && left > 0)) {
-        return {};
+/// Of a triangle, the corner k between sides k and k - 1.
+std::array<Corner, 3> corners_between(const std::array<double, 3>& length) {
+    const double four_areas = std::sqrt(sixteen_area_squared(length[0], length[1], length[2]));
+    std::array<Corner, 3> corners;
+    for (size_t k = 0; k < 3; ++k) {
+        const double base = length[k], opposite = length[(k + 1) % 3], left = length[(k + 2) % 3];
+        // Both times twice the product of the sides.
+        const double along = base * base + (left - opposite) * (left + opposite);
+        const double size = std::sqrt(along * along + four_areas * four_areas);
+        if (size > 0) {
+            corners[k] = {along / size, four_areas / size};
+        }
     }
-    const PlanePoint apex = apex_over(base, left, opposite);
-    const double length = std::hypot(apex.x, apex.y);
-    return {apex.x / length, apex.y / length};
-}
-
-Corner corner_at(const IntrinsicGraph& graph, uint32_t side) {
-    return corner_between(graph.side_length[side], graph.side_length[TriangleLinks::previous(side)],
-                          graph.side_length[TriangleLinks::next(side)]);
+    return corners;
 }
 
 class Builder {
@@ -39,9 +41,11 @@ class Builder {
         const size_t count = graph_.vertex_count();
         table_.fans.reserve(with_room(count + 1));
         table_.fans.resize(count + 1);
-        parallel_for(graph_.corner_vertex.size(), 1 << 14, [&](size_t begin, size_t end) {
-            for (size_t side = begin; side < end; ++side) {
-                corners_[side] = corner_at(graph_, static_cast<uint32_t>(side));
+        parallel_for(graph_.triangle_count(), 1 << 13, [&](size_t begin, size_t end) {
+            for (size_t t = begin; t < end; ++t) {
+                const double* length = &graph_.side_length[3 * t];
+                const std::array<Corner, 3> corners = corners_between({length[0], length[1], length[2]});
+                std::copy(corners.begin(), corners.end(), corners_.begin() + 3 * static_cast<ptrdiff_t>(t));
             }
         });
         parallel_for(count, 1 << 12, [&](size_t begin, size_t end) {
@@ -215,8 +219,9 @@ void sum_lengths(FanTable& table) {
 }
 
 double corner_angle(const TriangleGraph& graph, uint32_t side) {
-    const Corner corner = corner_between(graph.length(side), graph.length(TriangleGraph::previous(side)),
-                                         graph.length(TriangleGraph::next(side)));
+    const uint32_t first = side - side % 3;
+    const Corner corner =
+        corners_between({graph.length(first), graph.length(first + 1), graph.length(first + 2)})[side % 3];
     return std::atan2(corner.sine, corner.cosine);
 }
 

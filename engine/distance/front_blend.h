@@ -98,8 +98,17 @@ inline FrontArrival blend_fronts(const Front& left, const Front& right, const Ed
     const bool b_sees = place_centre(right, right.back - o.home, b);
     b.x = o.length - b.x;
     const float tolerance = 1e-5F * o.length;
+    // Almost half of the time both rays pass the same end: the way to the point leads over another edge.
+    const float a_depth = a.y + o.y, b_depth = b.y + o.y;
+    const float a_place = a.x * o.y + o.x * a.y, b_place = b.x * o.y + o.x * b.y;
+    const float low = o.begin - tolerance, high = o.finish + tolerance;
+    if (a_sees && b_sees &&
+        ((a_place < low * a_depth && b_place < low * b_depth) ||
+         (a_place > high * a_depth && b_place > high * b_depth))) {
+        return result;
+    }
     const auto is_seen = [&](float x) { return x >= o.begin - tolerance && x <= o.finish + tolerance; };
-    const float a_cross = crossing(a, o.x, o.y), b_cross = crossing(b, o.x, o.y);
+    const float a_cross = a_place / a_depth, b_cross = b_place / b_depth;
     const bool a_valid = a_sees && is_seen(a_cross), b_valid = b_sees && is_seen(b_cross);
     const bool same = left.label == right.label;
     // How far each front misses the other's end. One that is too short there has been cut off on its way.
@@ -108,11 +117,6 @@ inline FrontArrival blend_fronts(const Front& left, const Front& right, const Ed
     const float miss = std::max(std::fabs(miss_a), std::fabs(miss_b));
     result.miss = a_sees && b_sees && same ? miss : o.length;
     if (!a_valid && !b_valid) {
-        // Both rays pass the same end: the way to the point leads over another edge.
-        if (a_sees && b_sees &&
-            (std::max(a_cross, b_cross) < o.begin || std::min(a_cross, b_cross) > o.finish)) {
-            result.miss = 0;
-        }
         return result;
     }
     const float a_reach = left.offset + distance_between(o.x - a.x, o.y + a.y);
