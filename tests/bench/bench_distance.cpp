@@ -1,19 +1,33 @@
 // Processor time of geodesic distances beside a lean Dijkstra in the same run, and their errors.
-//   bench_distance [--sources N] [--no-errors] [MESH or SAMPLE:VERTICES ...]
+//   bench_distance [--sources N] [--no-errors] [MESH ...]
+// MESH is a file or SAMPLE:VERTICES; ~N behind it: subdivided N times by Loop's rule. Preparation is held
+// against loading the same mesh from binary PLY, handles in parallel against one after the other, and memory
+// is that of the process. Of meshes beyond 60000 vertices the exact method runs on regions alone.
+#include "app/bench/lean_dijkstra.h"
 #include "engine/core/log.h"
+#include "engine/core/parallel_for.h"
+#include "engine/core/scratch_folder.h"
 #include "engine/distance/distance.h"
 #include "engine/mesh/mesh_reader.h"
+#include "engine/mesh/mesh_writer.h"
 #include "engine/mesh/sample_shapes.h"
-#include "app/bench/lean_dijkstra.h"
+#include "tests/bench/loop_subdivision.h"
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <fstream>
+#include <malloc.h> // malloc_trim
 #include <string>
+#include <thread>
+#include <unistd.h> // sysconf
 
 using namespace anvil;
 
 namespace {
+
+constexpr size_t most_exact = 60000; // vertices
 
 /// Processor time of this process: other work on the machine disturbs it least.
 double seconds() {
@@ -29,6 +43,19 @@ struct Spread {
     double least() const { return *std::min_element(samples.begin(), samples.end()); }
 };
 
+double wall_seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Bytes of this process that are in memory and in use; 0 where the system does not say.
+double resident() {
+    ::malloc_trim(0);
+    std::ifstream in("/proc/self/statm");
+    double all = 0, pages = 0;
+    in >> all >> pages;
+    return pages * static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
+
 template <typename Work>
 double timed(const Work& work) {
     const double start = seconds();
@@ -37,6 +64,14 @@ double timed(const Work& work) {
 }
 
 Mesh mesh_named(const std::string& name) {
+    const size_t times = name.rfind('~');
+    if (times != std::string::npos) {
+        Mesh mesh = mesh_named(name.substr(0, times));
+        for (unsigned long i = 0; i < std::strtoul(name.c_str() + times + 1, nullptr, 10); ++i) {
+            mesh = loop_subdivided(mesh);
+        }
+        return mesh;
+    }
     const size_t colon = name.rfind(':');
     if (colon != std::string::npos) {
         return make_sample(name.substr(0, colon), std::strtoul(name.c_str() + colon + 1, nullptr, 10));
@@ -78,7 +113,7 @@ void compare(const Case& c, const char* label, size_t count) {
             }));
             other.samples.push_back(timed([&] { c.lean.run(source, radius / c.unit); }));
         }
-        for (int i = 0; i < 3 && (count != 0 || vertices < 60000); ++i) {
+        for (int i = 0; i < 3 && (count != 0 || vertices < most_exact); ++i) {
             precise.samples.push_back(timed([&] {
                 exact_vertices =
                     c.solver.solve(at_vertex(source), radius, DistanceMethod::exact).vertices.size();
@@ -99,6 +134,66 @@ void compare(const Case& c, const char* label, size_t count) {
         std::printf(", exact %.2f us/vertex", 1e6 * windows.median());
     }
     std::printf("\n");
+}
+
+/// The same mesh from binary PLY, for comparison with its preparation.
+double loading(const Mesh& mesh) {
+    const ScratchFolder folder;
+    write_mesh(folder / "mesh.ply", mesh, mesh.positions);
+    Spread loads;
+    for (int i = 0; i < 5; ++i) {
+        loads.samples.push_back(timed([&] {
+            Log log;
+            read_mesh(folder / "mesh.ply", log);
+        }));
+    }
+    return loads.least();
+}
+
+/// Bytes a vertex of the tables, and of what a run over everything adds, by either method.
+void memory(const Mesh& mesh) {
+    const auto vertices = static_cast<double>(mesh.vertex_count());
+    const double before = resident();
+    const GeodesicSolver solver(mesh, mesh.positions);
+    const double prepared = resident();
+    solver.solve(at_vertex(0), infinity, DistanceMethod::approximate);
+    const double approximate = resident();
+    solver.solve(at_vertex(0), 0, DistanceMethod::exact);
+    std::printf(
+        "  memory tables %.0f bytes a vertex, approximate workspace +%.0f, exact tables and workspace "
+        "+%.0f\n",
+        (prepared - before) / vertices, (approximate - prepared) / vertices,
+        (resident() - approximate) / vertices);
+}
+
+/// Regions of 2000 vertices around many handles, in turn and on all cores.
+void many_handles(const Case& c, const Mesh& mesh) {
+    constexpr size_t handles = 64;
+    std::vector<uint32_t> vertices;
+    for (size_t i = 0; i < handles; ++i) {
+        vertices.push_back(mesh.triangles[i * mesh.triangles.size() / handles][0]);
+    }
+    const double radius = radius_of(c.solver, c.sources.front(), 2000);
+    const auto solve = [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            c.solver.solve(at_vertex(vertices[i]), radius, DistanceMethod::approximate);
+        }
+    };
+    Spread in_turn, together, work;
+    for (int i = 0; i < 9; ++i) {
+        const double start = wall_seconds(), start_work = seconds();
+        solve(0, handles);
+        const double middle = wall_seconds(), middle_work = seconds();
+        parallel_for(handles, 1, solve);
+        in_turn.samples.push_back(middle - start);
+        together.samples.push_back(wall_seconds() - middle);
+        work.samples.push_back((seconds() - middle_work) / (middle_work - start_work));
+    }
+    std::printf(
+        "  %zu handles of 2k: in turn %.1f ms, together %.1f ms, gain %.2f on %u threads (wall); %.2f of the "
+        "processor time\n",
+        handles, 1e3 * in_turn.least(), 1e3 * together.least(), in_turn.least() / together.least(),
+        std::thread::hardware_concurrency(), work.median());
 }
 
 void errors(const Case& c, const TriangleGraph& graph, double mean_edge) {
@@ -125,8 +220,7 @@ void errors(const Case& c, const TriangleGraph& graph, double mean_edge) {
 }
 
 void bench(const std::string& name, size_t source_count, bool with_errors) {
-    Mesh mesh;
-    const double read = timed([&] { mesh = mesh_named(name); });
+    const Mesh mesh = mesh_named(name);
     // The yardstick runs on the mesh as it came.
     const TriangleGraph graph = make_triangle_graph(
         mesh.triangles, mesh.positions, number_as_given(mesh.triangles.size(), mesh.vertex_count()));
@@ -140,13 +234,17 @@ void bench(const std::string& name, size_t source_count, bool with_errors) {
     for (size_t i = 0; i < source_count; ++i) {
         c.sources.push_back(graph.corner_vertex[(i * graph.corner_vertex.size()) / source_count]);
     }
-    std::printf("%s: %zu vertices, got in %.1f ms, prepared in %.1f ms (%.2f us/vertex)\n", name.c_str(),
-                mesh.vertex_count(), 1e3 * read, 1e3 * prepare.least(),
-                1e6 * prepare.least() / static_cast<double>(mesh.vertex_count()));
+    const double load = loading(mesh);
+    std::printf(
+        "%s: %zu vertices, from PLY in %.1f ms, prepared in %.1f ms (%.2f us/vertex, %.2f of loading)\n",
+        name.c_str(), mesh.vertex_count(), 1e3 * load, 1e3 * prepare.least(),
+        1e6 * prepare.least() / static_cast<double>(mesh.vertex_count()), prepare.least() / load);
+    memory(mesh);
     compare(c, "2k", 2000);
     compare(c, "34k", 34000);
     compare(c, "full", 0);
-    if (with_errors) {
+    many_handles(c, mesh);
+    if (with_errors && mesh.vertex_count() < most_exact) {
         double sum = 0;
         for (uint32_t side = 0; side < graph.corner_vertex.size(); ++side) {
             sum += graph.length(side);
@@ -173,7 +271,12 @@ int main(int argc, char** argv) {
         }
     }
     if (names.empty()) {
-        names = {"sphere:10000", "torus:20000", "hand:40000", "bust:40000"};
+        names = {"sphere:10000", "torus:20000", "hand:40000", "bust:40000", "bust:43000~2"};
+        if (const char* exact = std::getenv("ANVIL_TEST_EXACT")) {
+            names.push_back(std::string(exact) + "/armadillo.obj");
+            names.push_back(std::string(exact) + "/nefertiti.obj");
+            names.push_back(std::string(exact) + "/armadillo.obj~2");
+        }
     }
     try {
         for (const std::string& name : names) {
