@@ -35,13 +35,6 @@ void set_places(TriangleGraph& graph, std::span<const Vec3> positions) {
     });
 }
 
-bool has_corner_twice(const TriangleLinks& graph, uint32_t side) {
-    const uint32_t first = side - side % 3;
-    const uint32_t a = graph.corner_vertex[first], b = graph.corner_vertex[first + 1],
-                   c = graph.corner_vertex[first + 2];
-    return a == b || b == c || c == a;
-}
-
 void link_edges(TriangleLinks& graph) {
     graph.across.reserve(with_room(graph.corner_vertex.size()));
     graph.across.assign(graph.corner_vertex.size(), no_index);
@@ -113,21 +106,24 @@ void link_vertices(TriangleLinks& graph, size_t vertex_count) {
 /// Joins the sides of each edge into a ring; each edge is done at its lower vertex, once.
 void link_edges_of(TriangleLinks& graph, uint32_t vertex, std::vector<EdgeSide>& ends) {
     ends.clear();
+    const auto before = [](const EdgeSide& a, const EdgeSide& b) {
+        return (uint64_t{a.other} << 32 | a.side) < (uint64_t{b.other} << 32 | b.side);
+    };
+    const auto add = [&](uint32_t other, uint32_t side) {
+        if (other > vertex) {
+            ends.push_back({other, side});
+        }
+    };
     for (const uint32_t side : graph.sides_leaving(vertex)) {
-        if (has_corner_twice(graph, side)) {
-            continue;
-        }
-        const uint32_t arriving = TriangleGraph::previous(side);
-        if (graph.to(side) > vertex) {
-            ends.push_back({graph.to(side), side});
-        }
-        if (graph.from(arriving) > vertex) {
-            ends.push_back({graph.from(arriving), arriving});
+        const uint32_t arriving = TriangleLinks::previous(side);
+        const uint32_t to = graph.to(side), from = graph.from(arriving);
+        // Not of triangles with a corner twice.
+        if (to != vertex && from != vertex && to != from) {
+            add(to, side);
+            add(from, arriving);
         }
     }
-    std::sort(ends.begin(), ends.end(), [](const EdgeSide& a, const EdgeSide& b) {
-        return a.other != b.other ? a.other < b.other : a.side < b.side;
-    });
+    std::sort(ends.begin(), ends.end(), before);
     for (size_t begin = 0, end = 0; begin < ends.size(); begin = end) {
         while (end < ends.size() && ends[end].other == ends[begin].other) {
             ++end;
