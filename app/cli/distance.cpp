@@ -45,6 +45,7 @@ DistanceMethod method_named(const std::string& name) {
 struct Found {
     std::vector<double> distances; ///< one per vertex
     std::vector<Vec3> sources;
+    std::string method; ///< that `auto` has chosen; of straight distances none
 };
 
 Found find_distances(const Mesh& mesh, const Options& options) {
@@ -62,7 +63,11 @@ Found find_distances(const Mesh& mesh, const Options& options) {
     query.metric = options.metric == "euclidean" ? Metric::euclidean : Metric::geodesic;
     query.method = method_named(options.method);
     query.radius = options.radius.value_or(infinity);
-    found.distances = surface.distances({&query, 1})[0].dense(mesh.vertex_count());
+    const DistanceField field = std::move(surface.distances({&query, 1})[0]);
+    found.distances = field.dense(mesh.vertex_count());
+    if (query.metric == Metric::geodesic) {
+        found.method = field.method == DistanceMethod::exact ? " (exact)" : " (approximate)";
+    }
     return found;
 }
 
@@ -84,7 +89,8 @@ void draw(const Mesh& mesh, const Found& found, const Options& options) {
     const double farthest = farthest_of(found.distances);
     const std::string lines =
         farthest > 0 ? "isolines every " + number_text(isoline_spacing(farthest)) + ", " : "";
-    write_text("", lines + "farthest " + rounded_text(farthest) + " -> " + options.picture.path + "\n");
+    write_text("", lines + "farthest " + rounded_text(farthest) + found.method + " -> " +
+                       options.picture.path + "\n");
 }
 
 void run(const Options& options, CommandContext& context) {

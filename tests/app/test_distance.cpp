@@ -160,12 +160,17 @@ TEST_CASE("distance draws a picture", "[app][distance]") {
     INFO(run.err);
     CHECK(run.status == 0);
     CHECK_THAT(content_of(picture), Catch::StartsWith("\x89PNG"));
-    // The strip is sqrt(5) long: the lines' distance is round.
-    CHECK(run.out == "isolines every 0.1, farthest 2.23607 -> " + picture + "\n");
+    // The strip is sqrt(5) long: the lines' distance is round. `auto` says what it took.
+    CHECK(run.out == "isolines every 0.1, farthest 2.23607 (exact) -> " + picture + "\n");
+    const auto last_line = [&](const std::string& option, const std::string& value) {
+        return strip.run({"--from", "v:0", "--image", picture, "--size", "64x48", option, value}).out;
+    };
+    CHECK_THAT(last_line("--method", "approximate"), Catch::Contains(" (approximate) -> "));
+    CHECK_THAT(last_line("--metric", "euclidean"), Catch::Contains("farthest 9.05539 -> "));
     const std::string lone = strip.folder / "lone.obj";
     std::ofstream(lone) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nf 1 2 3\n";
     const ProgramRun nothing =
         run_anvil({"distance", lone, "--from", "v:3", "--image", picture, "--size", "64x48"});
     CHECK(nothing.status == 0);
-    CHECK(nothing.out == "farthest 0 -> " + picture + "\n");
+    CHECK(nothing.out == "farthest 0 (exact) -> " + picture + "\n");
 }
