@@ -6,12 +6,7 @@ namespace anvil {
 
 namespace {
 
-constexpr size_t leaf_size = 4;
 constexpr int bin_count = 16;
-// Below this depth the halves are equal in number, so that no arrangement of triangles makes the tree deep.
-constexpr int balanced_depth = 48;
-constexpr size_t stack_size = balanced_depth + 40;
-constexpr double sphere_slack = 1 + 1e-12; // what rounding may hide
 
 double dot2(const Vec3& v) {
     return glm::dot(v, v);
@@ -146,16 +141,70 @@ SearchTree::SearchTree(std::span<const Vec3> positions, std::span<const Triangle
     }
     order_.reserve(items.size());
     corners_.reserve(items.size());
-    spheres_.reserve(items.size());
     for (const Item& item : items) {
         const Triangle& t = triangles[item.triangle];
         order_.push_back(item.triangle);
         corners_.push_back({positions[t[0]], positions[t[1]], positions[t[2]]});
-        const double reach2 =
-            std::max({dot2(positions[t[0]] - item.centre), dot2(positions[t[1]] - item.centre),
-                      dot2(positions[t[2]] - item.centre)});
-        spheres_.push_back({item.centre, sphere_slack * std::sqrt(reach2)});
     }
+    fill_leaves();
+}
+
+void SearchTree::fill_leaves() {
+    const double diagonal = nodes_.empty() ? 0 : nodes_[0].box.diagonal();
+    scale_ = diagonal > 0 ? 1 / diagonal : 1;
+    leaves_.resize((corners_.size() + leaf_size - 1) / leaf_size);
+    for (size_t i = 0; i < leaves_.size(); ++i) {
+        const size_t first = i * leaf_size;
+        const size_t count = std::min(leaf_size, corners_.size() - first);
+        Leaf& leaf = leaves_[i];
+        fit_box(leaf, std::span<const Corners>(corners_).subspan(first, count));
+        for (size_t lane = 0; lane < count; ++lane) {
+            const Corners& t = corners_[first + lane];
+            const std::array<Vec3, 3> corners{t.a, t.b, t.c};
+            const FlatTriangle flat = flattened(corners, scale_);
+            leaf.flat.set(lane, flat);
+            const Vec3 arm = (corners[flat.origin] - leaf.centre) * scale_;
+            for (int axis = 0; axis < 3; ++axis) {
+                leaf.origins[axis][lane] = static_cast<float>(arm[axis]);
+            }
+        }
+    }
+}
+
+/// Across the triangles' mean normal and along the longest side.
+void SearchTree::fit_box(Leaf& leaf, std::span<const Corners> triangles) const {
+    Vec3 normal(0);
+    Vec3 longest(0);
+    for (const Corners& t : triangles) {
+        const Vec3 ab = scale_ * (t.b - t.a);
+        const Vec3 ac = scale_ * (t.c - t.a);
+        normal += glm::cross(ab, ac);
+        for (const Vec3& side : {ab, ac, ac - ab}) {
+            longest = dot2(side) > dot2(longest) ? side : longest;
+        }
+    }
+    const auto unit = [](const Vec3& v, const Vec3& otherwise) {
+        return dot2(v) > 0 ? v / glm::length(v) : otherwise;
+    };
+    const Vec3 z = unit(normal, Vec3(0, 0, 1));
+    const Vec3 across = std::abs(z.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+    const Vec3 x = unit(longest - glm::dot(longest, z) * z, glm::normalize(glm::cross(z, across)));
+    leaf.axes = {glm::vec3(x), glm::vec3(glm::cross(z, x)), glm::vec3(z)};
+    const Vec3 origin = triangles.front().a;
+    Box box;
+    for (const Corners& t : triangles) {
+        for (const Vec3& corner : {t.a, t.b, t.c}) {
+            const Vec3 arm = scale_ * (corner - origin);
+            box.include({glm::dot(Vec3(leaf.axes[0]), arm), glm::dot(Vec3(leaf.axes[1]), arm),
+                         glm::dot(Vec3(leaf.axes[2]), arm)});
+        }
+    }
+    const Vec3 middle = box.centre() / scale_;
+    leaf.centre = origin + middle.x * Vec3(leaf.axes[0]) + middle.y * Vec3(leaf.axes[1]) +
+                  middle.z * Vec3(leaf.axes[2]);
+    // The axes are of length one and at right angles to 2^-23 each.
+    constexpr double rounding = 1e-6;
+    leaf.half = glm::vec3(0.5 * (box.high - box.low) + rounding * box.diagonal());
 }
 
 void SearchTree::build(std::span<Item> items, uint32_t first, int depth) {
@@ -177,7 +226,8 @@ void SearchTree::build(std::span<Item> items, uint32_t first, int depth) {
     build(items.subspan(middle), first + static_cast<uint32_t>(middle), depth + 1);
 }
 
-/// Reorders the items into two parts, neither empty; returns where the second begins.
+/// Reorders the items into two parts, the first of whole leaves, neither empty; returns where the second
+/// begins.
 size_t SearchTree::split(std::span<Item> items, int depth) {
     Box centres;
     for (const Item& item : items) {
@@ -186,6 +236,7 @@ size_t SearchTree::split(std::span<Item> items, int depth) {
     const Vec3 extent = centres.high - centres.low;
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
     const double scale = bin_count / extent[axis];
+    size_t middle = items.size() / 2;
     if (depth < balanced_depth && std::isfinite(scale)) {
         const auto bin_of = [&](const Item& item) {
             return std::min(static_cast<int>((item.centre[axis] - centres.low[axis]) * scale), bin_count - 1);
@@ -199,10 +250,11 @@ size_t SearchTree::split(std::span<Item> items, int depth) {
         if (const int cut = best_cut(bins)) {
             const auto second = std::partition(items.begin(), items.end(),
                                                [&](const Item& item) { return bin_of(item) < cut; });
-            return static_cast<size_t>(second - items.begin());
+            middle = static_cast<size_t>(second - items.begin());
         }
     }
-    const size_t middle = items.size() / 2;
+    middle = std::clamp((middle + leaf_size / 2) / leaf_size * leaf_size, leaf_size,
+                        (items.size() - 1) / leaf_size * leaf_size);
     std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(middle), items.end(),
                      [axis](const Item& a, const Item& b) {
                          return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis]
@@ -218,8 +270,18 @@ ClosestPoint SearchTree::closest(const Vec3& query, double max_distance) const {
     }
     Candidate nearest_found;
     nearest_found.distance2 = max_distance * max_distance;
-    double nearest_distance = max_distance;
     size_t nearest_slot = 0;
+    const double unit2 = 1 / (scale_ * scale_);
+    const auto offer = [&](size_t slot) {
+        const Corners& t = corners_[slot];
+        const Candidate found = nearest(query - t.a, t.b - t.a, t.c - t.a);
+        if (found.distance2 < nearest_found.distance2 ||
+            (found.distance2 == nearest_found.distance2 && order_[slot] < best.triangle)) {
+            nearest_found = found;
+            nearest_slot = slot;
+            best.triangle = order_[slot];
+        }
+    };
     struct Entry {
         uint32_t node;
         double distance2;
@@ -233,30 +295,22 @@ ClosestPoint SearchTree::closest(const Vec3& query, double max_distance) const {
             continue;
         }
         const Node& node = nodes_[entry.node];
-        for (size_t slot = node.first; slot < node.first + node.count; ++slot) {
-            const double reach = sphere_slack * (nearest_distance + spheres_[slot].radius);
-            if (dot2(query - spheres_[slot].centre) > reach * reach) {
-                continue;
+        if (node.count > 0) {
+            const Float4 lower = squared_distances(leaves_[node.first / leaf_size], query).low;
+            for (size_t i = 0; i < node.count; ++i) {
+                if (!(lower[i] * unit2 > nearest_found.distance2)) {
+                    offer(node.first + i);
+                }
             }
-            const Corners& t = corners_[slot];
-            const Candidate found = nearest(query - t.a, t.b - t.a, t.c - t.a);
-            if (found.distance2 < nearest_found.distance2 ||
-                (found.distance2 == nearest_found.distance2 && order_[slot] < best.triangle)) {
-                nearest_found = found;
-                nearest_slot = slot;
-                nearest_distance = std::sqrt(found.distance2);
-                best.triangle = order_[slot];
-            }
+            continue;
         }
-        if (node.count == 0) {
-            Entry near{entry.node + 1, box_distance2(nodes_[entry.node + 1].box, query)};
-            Entry far{node.first, box_distance2(nodes_[node.first].box, query)};
-            if (far.distance2 < near.distance2) {
-                std::swap(near, far);
-            }
-            stack[depth++] = far;
-            stack[depth++] = near;
+        Entry near{entry.node + 1, box_distance2(nodes_[entry.node + 1].box, query)};
+        Entry far{node.first, box_distance2(nodes_[node.first].box, query)};
+        if (far.distance2 < near.distance2) {
+            std::swap(near, far);
         }
+        stack[depth++] = far;
+        stack[depth++] = near;
     }
     if (best.found()) {
         best.barycentric = nearest_found.barycentric;

@@ -17,6 +17,13 @@ inline constexpr int brick_cells = kernel::f64::BRICK_CELLS;
 inline constexpr int brick_side = kernel::f64::BRICK_SIDE;
 inline constexpr int brick_samples = brick_side * brick_side * brick_side;
 
+inline int sample_index(const CellIndex& sample) {
+    return sample.x + brick_side * (sample.y + brick_side * sample.z);
+}
+inline CellIndex sample_place(int index) {
+    return {index % brick_side, index / brick_side % brick_side, index / (brick_side * brick_side)};
+}
+
 /// (normal, distance in voxels) at the corners of a brick's cells, x fastest.
 using BrickSamples = std::array<glm::vec4, brick_samples>;
 

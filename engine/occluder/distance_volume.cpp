@@ -5,6 +5,7 @@
 #include "engine/occluder/trilinear.h"
 
 #include <cmath>
+#include <mutex>
 
 namespace anvil {
 
@@ -28,47 +29,70 @@ DistanceVolume layout(const Box& box, uint32_t resolution) {
     return volume;
 }
 
-void fill_row(DistanceVolume& volume, const ExactDistance& solid, size_t y, size_t z) {
-    std::vector<Vec3> points;
-    for (size_t x = 0; x < volume.size[0]; ++x) {
-        points.push_back(voxel_centre(volume, Vec3(x, y, z)));
-    }
-    std::vector<SignedDistance> found(points.size());
-    solid.trace(points, found);
-    float* texel = &volume.texels[volume.texel_index(0, y, z)];
-    for (const SignedDistance& s : found) {
-        for (int i = 0; i < 3; ++i) {
-            *texel++ = static_cast<float>(s.normal[i]);
+/// Voxels or cells of a block: what is asked for at once.
+constexpr size_t block_size = 8;
+
+template <class Visit>
+void each_place(size_t block_x, size_t block_y, size_t block_z, const std::array<size_t, 3>& size,
+                const Visit& visit) {
+    for (size_t z = block_z; z < std::min(block_z + block_size, size[2]); ++z) {
+        for (size_t y = block_y; y < std::min(block_y + block_size, size[1]); ++y) {
+            for (size_t x = block_x; x < std::min(block_x + block_size, size[0]); ++x) {
+                visit(x, y, z);
+            }
         }
-        *texel++ = static_cast<float>(s.distance);
     }
 }
 
-/// Largest interpolation error at the cell centres of one layer that the surface is near to.
-double layer_error(const DistanceVolume& volume, const ExactDistance& solid, size_t z) {
-    double worst = 0;
-    for (size_t y = 0; y + 1 < volume.size[1]; ++y) {
-        for (size_t x = 0; x + 1 < volume.size[0]; ++x) {
-            if (std::abs(volume.texels[volume.texel_index(x, y, z) + 3]) > 2 * volume.voxel) {
-                continue;
-            }
-            const Vec3 cell = Vec3(x, y, z) + Vec3(0.5);
-            const Vec3 last(volume.size[0] - 1, volume.size[1] - 1, volume.size[2] - 1);
-            const double interpolated = volume.texel(cell / last).w;
-            worst = std::max(worst, std::abs(interpolated - solid.at(voxel_centre(volume, cell)).distance));
+void fill_block(DistanceVolume& volume, const ExactDistance& solid, size_t x0, size_t y0, size_t z0) {
+    const std::array<size_t, 3> size{volume.size[0], volume.size[1], volume.size[2]};
+    std::vector<Vec3> points;
+    each_place(x0, y0, z0, size,
+               [&](size_t x, size_t y, size_t z) { points.push_back(voxel_centre(volume, Vec3(x, y, z))); });
+    std::vector<SignedDistance> found(points.size());
+    solid.trace(points, found);
+    auto next = found.begin();
+    each_place(x0, y0, z0, size, [&](size_t x, size_t y, size_t z) {
+        float* texel = &volume.texels[volume.texel_index(x, y, z)];
+        for (int i = 0; i < 3; ++i) {
+            *texel++ = static_cast<float>(next->normal[i]);
         }
+        *texel = static_cast<float>(next++->distance);
+    });
+}
+
+/// Largest interpolation error at the cell centres of a block that the surface is near to.
+double block_error(const DistanceVolume& volume, const ExactDistance& solid, size_t x0, size_t y0,
+                   size_t z0) {
+    const std::array<size_t, 3> cells{volume.size[0] - 1, volume.size[1] - 1, volume.size[2] - 1};
+    std::vector<Vec3> points;
+    std::vector<double> interpolated;
+    each_place(x0, y0, z0, cells, [&](size_t x, size_t y, size_t z) {
+        if (std::abs(volume.texels[volume.texel_index(x, y, z) + 3]) <= 2 * volume.voxel) {
+            const Vec3 cell = Vec3(x, y, z) + Vec3(0.5);
+            points.push_back(voxel_centre(volume, cell));
+            interpolated.push_back(volume.texel(cell / Vec3(cells[0], cells[1], cells[2])).w);
+        }
+    });
+    std::vector<SignedDistance> found(points.size());
+    solid.trace(points, found);
+    double worst = 0;
+    for (size_t i = 0; i < points.size(); ++i) {
+        worst = std::max(worst, std::abs(interpolated[i] - found[i].distance));
     }
     return worst;
 }
 
-double measured_error(const DistanceVolume& volume, const ExactDistance& solid) {
-    std::vector<double> errors(volume.size[2] - 1, 0.0);
-    parallel_for(errors.size(), 1, [&](size_t begin, size_t end) {
-        for (size_t z = begin; z < end; ++z) {
-            errors[z] = layer_error(volume, solid, z);
+/// Calls work(x, y) for the low corners of a layer's blocks, on all cores.
+template <class Work>
+void for_blocks(const DistanceVolume& volume, const Work& work) {
+    const size_t columns = (volume.size[0] + block_size - 1) / block_size;
+    const size_t rows = (volume.size[1] + block_size - 1) / block_size;
+    parallel_for(columns * rows, 1, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            work(i % columns * block_size, i / columns * block_size);
         }
     });
-    return *std::max_element(errors.begin(), errors.end());
 }
 
 } // namespace
@@ -100,17 +124,19 @@ Box bakeable_box(const ExactDistance& solid) {
 DistanceVolume bake(const ExactDistance& solid, uint32_t resolution, Progress& progress) {
     DistanceVolume volume = layout(bakeable_box(solid), resolution);
     volume.texels.resize(4 * size_t{volume.size[0]} * volume.size[1] * volume.size[2]);
-    constexpr size_t layers_at_once = 8;
-    for (size_t z0 = 0; z0 < volume.size[2]; z0 += layers_at_once) {
-        progress.report("bake", static_cast<double>(z0) / volume.size[2]);
-        const size_t z1 = std::min<size_t>(z0 + layers_at_once, volume.size[2]);
-        parallel_for((z1 - z0) * volume.size[1], 1, [&](size_t begin, size_t end) {
-            for (size_t row = begin; row < end; ++row) {
-                fill_row(volume, solid, row % volume.size[1], z0 + row / volume.size[1]);
-            }
+    for (size_t z = 0; z < volume.size[2]; z += block_size) {
+        progress.report("bake", static_cast<double>(z) / volume.size[2]);
+        for_blocks(volume, [&](size_t x, size_t y) { fill_block(volume, solid, x, y, z); });
+    }
+    std::mutex mutex;
+    for (size_t z = 0; z < volume.size[2]; z += block_size) {
+        for_blocks(volume, [&](size_t x, size_t y) {
+            const double error = block_error(volume, solid, x, y, z);
+            const std::lock_guard lock(mutex);
+            volume.error = std::max(volume.error, error);
         });
     }
-    volume.error = std::min(measured_error(volume, solid), 0.25 * volume.voxel);
+    volume.error = std::min(volume.error, 0.25 * volume.voxel);
     return volume;
 }
 

@@ -26,13 +26,11 @@ class MeshDistance final : public ExactDistance {
 
     SignedDistance at(const Vec3& p) const override { return signed_distance(p, tree_.closest(p)); }
 
-    /// The face closest to one point bounds the search for the next one.
     void trace(std::span<const Vec3> points, std::span<SignedDistance> found) const override {
-        uint32_t last = no_index;
+        std::vector<ClosestPoint> closest(points.size());
+        tree_.closest(points, closest);
         for (size_t i = 0; i < points.size(); ++i) {
-            const ClosestPoint closest = closest_near(points[i], last);
-            last = closest.triangle;
-            found[i] = signed_distance(points[i], closest);
+            found[i] = signed_distance(points[i], closest[i]);
         }
     }
 
@@ -41,19 +39,6 @@ class MeshDistance final : public ExactDistance {
     size_t crossing_triangles() const { return sides_.crossing_triangles(); }
 
   private:
-    ClosestPoint closest_near(const Vec3& p, uint32_t last) const {
-        if (last != no_index) {
-            const Triangle& t = triangles_[last];
-            const ClosestPoint there =
-                closest_on_triangle(p, positions_[t[0]], positions_[t[1]], positions_[t[2]]);
-            const ClosestPoint closest = tree_.closest(p, there.distance * (1 + 1e-12));
-            if (closest.found()) {
-                return closest;
-            }
-        }
-        return tree_.closest(p);
-    }
-
     SignedDistance signed_distance(const Vec3& p, const ClosestPoint& closest) const {
         const Vec3 arm = p - closest.position;
         if (closest.distance > 1e-9 * bounds_.diagonal()) {

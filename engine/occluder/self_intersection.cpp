@@ -162,9 +162,9 @@ std::vector<Crossing> find_crossings(std::span<const Vec3> positions, std::span<
             for (const Vec3& corner : a.at) {
                 box.include(corner);
             }
-            tree.each_overlapping(box, [&](uint32_t other) {
+            tree.each_near(box, 0, [&](uint32_t other) {
                 if (other <= t) {
-                    return;
+                    return true;
                 }
                 const Face b = face(other);
                 const Crossing found = crossing(a, triangles[t], b, triangles[other]);
@@ -172,6 +172,7 @@ std::vector<Crossing> find_crossings(std::span<const Vec3> positions, std::span<
                     mark(flags[t], found);
                     mark(flags[other], found);
                 }
+                return true;
             });
         }
     });

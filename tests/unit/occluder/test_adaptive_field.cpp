@@ -58,6 +58,7 @@ TEST_CASE("an adaptive field is within its tolerance of the exact distance, ever
         const AdaptiveField field = bake_adaptive(*exact, 96, progress);
         std::mt19937 random(1);
         size_t beyond = 0;
+        size_t far_beyond = 0;
         double band = 0;
         size_t in_band = 0;
         for (int i = 0; i < 40000; ++i) {
@@ -65,16 +66,17 @@ TEST_CASE("an adaptive field is within its tolerance of the exact distance, ever
             const double truth = exact->at(p).distance / field.voxel;
             const double error = field.texel(p).w / field.voxel - truth;
             REQUIRE(std::isfinite(error));
-            // Tolerances are held at the points that were tested; between them kinks may add as much again,
-            // and the finest cells, which cannot be split, are off by up to 1/4 at edges, 1/2 at corners.
-            const double allowed = level_at(field, p) > 0 ? 2 * adaptive_tolerance(truth) : 0.5;
+            // The finest cells, which cannot be split, are off by up to 1/4 at edges, 1/2 at corners.
+            const double allowed = level_at(field, p) > 0 ? adaptive_tolerance(truth) : 0.5;
             beyond += std::abs(error) > allowed ? 1 : 0;
+            far_beyond += std::abs(error) > 2 * allowed ? 1 : 0;
             if (std::abs(truth) < 3) {
                 ++in_band;
                 band += error * error;
             }
         }
-        CHECK(beyond <= 4); // 1e-4 of the points
+        CHECK(beyond <= 12); // 3e-4 of the points: creases between the places that are tested
+        CHECK(far_beyond == 0);
         CHECK(std::sqrt(band / static_cast<double>(in_band)) < 0.041);
     }
 }
