@@ -1,6 +1,7 @@
-// The promise of contact at scale: every mesh of a folder as an occluder, a sphere pushed at it by one and by
-// five of its sizes, and what ends inside, judged without any of the engine's own distances or signs: winding
-// numbers summed over all triangles, and distances to all triangles of what these call inside. Usage:
+// The promise of contact at scale: every mesh of a folder as an occluder, baked dense and adaptive with 64,
+// 128 and 256 voxels, a sphere pushed at it by one and by five of its sizes, and what ends inside, judged
+// without any of the engine's own distances or signs: winding numbers summed over all triangles, and
+// distances to all triangles of what these call inside. Usage:
 //   bench_contact FOLDER [VERTICES [ANGLES]]
 // prints one line a run and exits with 1 if a vertex that started outside ended deeper inside than 1e-6 of
 // the size. ANGLES: the most point-triangle angles of one run (default 2e8); those nearest to the surface are
@@ -121,6 +122,7 @@ struct Run {
     std::string name;
     const Mesh& mesh;
     const OccluderModel& model;
+    FieldKind kind;
     uint32_t resolution;
     double reach;
 };
@@ -167,11 +169,12 @@ bool holds(const Run& run, size_t vertices, double angles) {
         }
     }
     const Verdict verdict = judge(run.mesh, size, outside, set, angles);
-    std::printf("%-26s %4u voxels, %g sizes: %zu inside (deepest %.1e of the size; %zu of %zu judged), %zu "
-                "finished on "
-                "the CPU, %zu at the step limit, %.2f s\n",
-                run.name.c_str(), run.resolution, run.reach, verdict.inside, verdict.deepest / size,
-                verdict.judged, outside.size(), finished, limited, seconds);
+    std::printf(
+        "%-26s %-8s %4u voxels, %g sizes: %zu inside (deepest %.1e of the size; %zu of %zu judged), %zu "
+        "finished on "
+        "the CPU, %zu at the step limit, %.2f s\n",
+        run.name.c_str(), run.kind == FieldKind::dense ? "dense" : "adaptive", run.resolution, run.reach,
+        verdict.inside, verdict.deepest / size, verdict.judged, outside.size(), finished, limited, seconds);
     std::fflush(stdout);
     return verdict.inside == 0;
 }
@@ -201,14 +204,17 @@ int main(int argc, char** argv) {
         std::printf("%-26s the judge finds %zu of 100 points beneath the surface\n", file.filename().c_str(),
                     seen);
         all = all && seen > 50;
-        for (const uint32_t resolution : {64U, 128U}) {
-            Progress progress;
-            const OccluderModel model =
-                build_model({MeshShape{file.filename().string()}}, {FieldKind::dense, resolution}, progress,
-                            {file.parent_path(), nullptr});
-            for (const double reach : {1.0, 5.0}) {
-                all = holds({file.filename().string(), mesh, model, resolution, reach}, vertices, angles) &&
-                      all;
+        for (const uint32_t resolution : {64U, 128U, 256U}) {
+            for (const FieldKind kind : {FieldKind::adaptive, FieldKind::dense}) {
+                Progress progress;
+                const OccluderModel model =
+                    build_model({MeshShape{file.filename().string()}}, {kind, resolution}, progress,
+                                {file.parent_path(), nullptr});
+                for (const double reach : {1.0, 5.0}) {
+                    all = holds({file.filename().string(), mesh, model, kind, resolution, reach}, vertices,
+                                angles) &&
+                          all;
+                }
             }
         }
     }

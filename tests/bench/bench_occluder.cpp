@@ -1,6 +1,7 @@
-// Baked distance fields of meshes, dense and adaptive: processor seconds to bake, memory, time per step of
-// the deformation, errors at random points, and how far the results of an edit differ.
-//   bench_occluder [--no-dense] [--points N] [--resolution N ...] MESH or SAMPLE:VERTICES ...
+// Baked distance fields of meshes, dense and adaptive: processor seconds to bake beside those of OpenVDB's
+// meshToVolume, memory, time per step of the deformation, errors at random points, and how far the results of
+// an edit differ.
+//   bench_occluder [--no-dense] [--bake-only] [--points N] [--resolution N ...] MESH or SAMPLE:VERTICES ...
 #include "engine/core/log.h"
 #include "engine/core/parallel_for.h"
 #include "engine/deform/backend.h"
@@ -14,6 +15,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/MeshToVolume.h>
 #include <random>
 #include <string>
 
@@ -37,6 +40,7 @@ Mesh mesh_named(const std::string& name) {
 
 struct Options {
     bool dense = true;
+    bool bake_only = false;
     size_t points = 1000000;
     std::vector<uint32_t> resolutions;
     std::vector<std::string> meshes;
@@ -75,10 +79,11 @@ struct Sample {
     SignedDistance truth;
 };
 
-/// `band`: within so many voxels of the surface, else anywhere in the box and some way around.
-std::vector<Sample> random_samples(const ExactDistance& exact, size_t count, double band) {
+/// Anywhere in the field's box, as far as it reaches beyond the solid's; no farther from the surface than
+/// `band`.
+std::vector<Sample> random_samples(const ExactDistance& exact, double voxel, size_t count, double band) {
     const Box box = exact.bounds();
-    const Vec3 margin = 0.02 * (box.high - box.low);
+    const Vec3 margin(3 * voxel);
     std::mt19937_64 random(7);
     std::vector<Sample> samples;
     while (samples.size() < count) {
@@ -194,6 +199,50 @@ void print_difference(const Pushed& a, const Pushed& b, double voxel) {
                 differences[n - 1]);
 }
 
+/// Processor seconds of OpenVDB for a narrow band of 3 voxels on each side, from the mesh's arrays on.
+double seconds_of_openvdb(const Mesh& mesh, double voxel) {
+    const double start = seconds();
+    std::vector<openvdb::Vec3s> points;
+    for (const Vec3& p : mesh.positions) {
+        points.emplace_back(p.x / voxel, p.y / voxel, p.z / voxel);
+    }
+    std::vector<openvdb::Vec3I> triangles;
+    for (const Triangle& t : mesh.triangles) {
+        triangles.emplace_back(t[0], t[1], t[2]);
+    }
+    const openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I> adapter(points,
+                                                                                             triangles);
+    const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
+    const auto grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(adapter, *transform, 3, 3);
+    return grid->activeVoxelCount() > 0 ? seconds() - start : infinity;
+}
+
+/// Both from the mesh's arrays on, in turns; medians.
+void compare_bakes(const std::string& name, uint32_t resolution) {
+    const Mesh mesh = mesh_named(name);
+    constexpr size_t rounds = 5;
+    std::array<double, rounds> ours{};
+    std::array<double, rounds> theirs{};
+    std::array<double, rounds> ratios{};
+    for (size_t round = 0; round < rounds; ++round) {
+        const double start = seconds();
+        const std::shared_ptr<const ExactDistance> exact = mesh_distance(mesh);
+        const Baked field = baked(exact, FieldKind::adaptive, resolution, InfluenceKind::hard);
+        ours[round] = seconds() - start;
+        theirs[round] = seconds_of_openvdb(mesh, field.voxel);
+        ratios[round] = ours[round] / theirs[round];
+    }
+    for (auto* times : {&ours, &theirs, &ratios}) {
+        std::sort(times->begin(), times->end());
+    }
+    std::printf(
+        "%s: %zu triangles, %u voxels, adaptive bake with all preparation %.2f s, OpenVDB's meshToVolume "
+        "%.2f s (processor time, medians of %zu), ratio %.2f (%.2f to %.2f)\n",
+        name.c_str(), mesh.triangles.size(), resolution, ours[rounds / 2], theirs[rounds / 2], rounds,
+        ratios[rounds / 2], ratios.front(), ratios.back());
+    std::fflush(stdout);
+}
+
 void measure(const std::string& name, uint32_t resolution, const Options& options) {
     const Mesh mesh = mesh_named(name);
     const double start = seconds();
@@ -210,8 +259,8 @@ void measure(const std::string& name, uint32_t resolution, const Options& option
         }
         const Baked field = baked(exact, kind, resolution, InfluenceKind::soft);
         voxel = field.voxel;
-        const Errors all = errors_of(field, random_samples(*exact, options.points, infinity));
-        const Errors band = errors_of(field, random_samples(*exact, options.points / 10, 3 * voxel));
+        const Errors all = errors_of(field, random_samples(*exact, voxel, options.points, infinity));
+        const Errors band = errors_of(field, random_samples(*exact, voxel, options.points / 10, 3 * voxel));
         results.push_back(pushed(*backend, field.set, exact->bounds()));
         std::printf(
             "  %-8s bake %7.2f s  %7.2f MB  settle %.3f  band rms %.4f worst %.2f sign %.4f %% normal %.3f | "
@@ -234,6 +283,8 @@ Options parse(int count, char** arguments) {
         const std::string word = arguments[i];
         if (word == "--no-dense") {
             options.dense = false;
+        } else if (word == "--bake-only") {
+            options.bake_only = true;
         } else if (word == "--points" && i + 1 < count) {
             options.points = std::strtoul(arguments[++i], nullptr, 10);
         } else if (word == "--resolution" && i + 1 < count) {
@@ -255,9 +306,13 @@ Options parse(int count, char** arguments) {
 
 int main(int count, char** arguments) {
     const Options options = parse(count, arguments);
+    openvdb::initialize();
     for (const std::string& mesh : options.meshes) {
         for (const uint32_t resolution : options.resolutions) {
-            measure(mesh, resolution, options);
+            compare_bakes(mesh, resolution);
+            if (!options.bake_only) {
+                measure(mesh, resolution, options);
+            }
         }
     }
 }
