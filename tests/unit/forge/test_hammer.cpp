@@ -1,5 +1,9 @@
 // Hammers: occluders that move while an edit acts.
+#include "engine/mesh/mesh_writer.h"
+#include "engine/occluder/level_set_file.h"
+#include "engine/occluder/shape_nodes.h"
 #include "tests/support/forging.h"
+#include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
 #include <random>
@@ -76,6 +80,40 @@ TEST_CASE("a sphere pressed into a plate leaves its shape") {
         if (std::string(influence) == "'hard'") {
             CHECK(contacts == beneath);
         }
+    }
+}
+
+TEST_CASE("hammers of a mesh or of a level set, baked adaptively, leave the shape that the solid leaves") {
+    const ScratchFolder folder;
+    Mesh tool = make_sample("icosphere", 10242);
+    for (Vec3& p : tool.positions) {
+        p *= 0.2;
+    }
+    write_mesh(folder / "ball.ply", tool, tool.positions);
+    Progress progress;
+    write_level_set(folder / "ball.vdb", *formula_distance(shape_nodes({SphereShape{0.2}})), 0.2 / 48,
+                    progress);
+    const Mesh mesh = make_sample("plane", 4000);
+    const Vec3 end(0.03, 0.02, 0.1);
+    const std::string poses = two_poses({0.03, 0.02, 0.5}, end);
+    const auto truth = forged_on_cpu(mesh, hammer_recipe(still(ball, Vec3(0)), poses));
+    for (const char* kind : {"mesh", "vdb"}) {
+        const std::string file = (folder / (kind == std::string("mesh") ? "ball.ply" : "ball.vdb")).string();
+        const std::string shape = std::string("{'") + kind + "': '" + file + "'}";
+        const std::string field = "'field': {'kind': 'adaptive', 'resolution': 64}, 'influence'";
+        std::string occluder = still(shape, Vec3(0));
+        occluder.replace(occluder.find("'influence'"), std::string("'influence'").size(), field);
+        const auto result = forged_on_cpu(mesh, hammer_recipe(occluder, poses));
+        size_t inside = 0;
+        double largest = 0;
+        for (size_t v = 0; v < mesh.vertex_count(); ++v) {
+            REQUIRE(is_finite(result.positions[v]));
+            // What is written as faces lies up to a sagitta of 2e-4 radii inside the ball.
+            inside += glm::length(result.positions[v] - end) < 0.2 * (1 - 5e-4) ? 1 : 0;
+            largest = std::max(largest, glm::length(result.positions[v] - truth.positions[v]));
+        }
+        CHECK(inside == 0);
+        CHECK(largest < 0.4 / 57); // a voxel: what slides over the ball takes another way in a sampled field
     }
 }
 
