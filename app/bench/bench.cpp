@@ -9,6 +9,7 @@ namespace {
 std::vector<BenchCase> all_cases(Workshop& workshop, const BenchExtent& extent) {
     std::vector<BenchCase> cases;
     add_deform_cases(cases, workshop, extent);
+    add_drag_cases(cases, workshop, extent);
     add_distance_cases(cases, workshop, extent);
     add_file_cases(cases, workshop, extent);
     add_refine_cases(cases, workshop, extent);

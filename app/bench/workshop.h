@@ -57,6 +57,7 @@ std::string size_text(size_t vertices);
 
 // The cases, room by room. `workshop` outlives them.
 void add_deform_cases(std::vector<BenchCase>& cases, Workshop& workshop, const BenchExtent& extent);
+void add_drag_cases(std::vector<BenchCase>& cases, Workshop& workshop, const BenchExtent& extent);
 void add_distance_cases(std::vector<BenchCase>& cases, Workshop& workshop, const BenchExtent& extent);
 void add_file_cases(std::vector<BenchCase>& cases, Workshop& workshop, const BenchExtent& extent);
 void add_refine_cases(std::vector<BenchCase>& cases, Workshop& workshop, const BenchExtent& extent);

@@ -1,0 +1,152 @@
+// The drag session: from the click to the first positions, and step by step.
+#include "app/bench/workshop.h"
+#include "engine/forge/drag_session.h"
+
+#include <cmath>
+
+namespace anvil {
+
+namespace {
+
+struct DragOptions {
+    double radius = 0.5; ///< on the unit sphere
+    size_t handles = 1;
+    std::optional<Field> occluder; ///< a ball that the pole is pushed into; absent: none
+};
+
+Recipe recipe_of(const Mesh& sphere, const DragOptions& options) {
+    Recipe recipe;
+    Edit edit;
+    edit.radius = options.radius;
+    for (size_t j = 0; j < options.handles; ++j) {
+        Handle handle;
+        handle.at = VertexAddress{static_cast<uint32_t>(j * (sphere.vertex_count() / options.handles))};
+        handle.by = 0.3 * sphere.positions[std::get<VertexAddress>(handle.at).vertex];
+        edit.handles.push_back(handle);
+    }
+    if (options.occluder) {
+        const Vec3 away = 1.4 * sphere.positions[0];
+        recipe.occluders.push_back({"ball", {SphereShape{0.3}}, options.occluder, {away}, {}});
+    }
+    recipe.edits.push_back(edit);
+    return recipe;
+}
+
+/// A mesh ready to be dragged at; distances are prepared.
+struct DragStage {
+    std::shared_ptr<const Mesh> mesh;
+    RefinementHistory history;
+    KeptSolvers solvers;
+    DragScene scene;
+    Recipe recipe;
+    Log log;
+    Progress progress;
+    EditOccluders occluders;
+
+    DragStage(std::shared_ptr<const Mesh> of, const DragOptions& options)
+        : mesh(std::move(of)), history(*mesh), scene(*mesh, mesh->positions, history, solvers),
+          recipe(recipe_of(*mesh, options)), occluders(recipe, log, progress, nullptr) {
+        scene.warm();
+    }
+
+    /// Until positions and normals are on the device.
+    std::unique_ptr<DragSession> opened(Backend& backend) {
+        auto session = std::make_unique<DragSession>(scene, occluders, backend, recipe.edits[0], log);
+        session->wait();
+        return session;
+    }
+};
+
+/// Two targets in turn.
+std::function<void()> steps_of(const std::shared_ptr<DragStage>& stage, Backend& backend) {
+    const std::shared_ptr<DragSession> session = stage->opened(backend);
+    Edit other = stage->recipe.edits[0];
+    other.handles[0].by = 0.9 * *other.handles[0].by;
+    return [stage, session, other, first = true]() mutable {
+        first = !first;
+        session->update(first ? stage->recipe.edits[0] : other, stage->occluders);
+        session->wait();
+    };
+}
+
+/// Positions, distances, results, normals.
+uint64_t step_bytes(const DragSession& session) {
+    const uint64_t of_point = 2 * sizeof(glm::vec3) + sizeof(kernel::f32::VertexResult) +
+                              session.input().handle_count * sizeof(float);
+    return session.region().vertices.size() * of_point + session.normal_vertices().size() * sizeof(glm::vec3);
+}
+
+ReadyCase described(Workshop& workshop, const std::shared_ptr<DragStage>& stage) {
+    const auto session = stage->opened(workshop.tested());
+    ReadyCase ready;
+    ready.vertices = stage->mesh->vertex_count();
+    ready.region = session->region().vertices.size();
+    ready.bytes = step_bytes(*session);
+    return ready;
+}
+
+ReadyCase click_case(Workshop& workshop, size_t vertices, const DragOptions& options) {
+    const auto stage = std::make_shared<DragStage>(workshop.sphere(vertices), options);
+    ReadyCase ready = described(workshop, stage);
+    ready.work = [stage, &backend = workshop.tested()] { stage->opened(backend); };
+    ready.yardsticks.push_back({"cpu", [stage, &backend = workshop.cpu()] { stage->opened(backend); }});
+    ready.yardsticks.push_back(dijkstra_yardstick(*stage->mesh, options.radius));
+    return ready;
+}
+
+ReadyCase step_case(Workshop& workshop, size_t vertices, const DragOptions& options) {
+    const auto stage = std::make_shared<DragStage>(workshop.sphere(vertices), options);
+    ReadyCase ready = described(workshop, stage);
+    ready.work = steps_of(stage, workshop.tested());
+    ready.yardsticks.push_back({"cpu", steps_of(stage, workshop.cpu())});
+    ready.yardsticks.push_back(memcpy_yardstick(ready.bytes));
+    return ready;
+}
+
+/// The same number of vertices in the region of a mesh of four times as many.
+ReadyCase same_region_case(Workshop& workshop, size_t vertices, const DragOptions& options) {
+    const auto small = std::make_shared<DragStage>(workshop.sphere(vertices), options);
+    DragOptions half = options;
+    half.radius = options.radius / 2;
+    ReadyCase ready = step_case(workshop, 4 * vertices, half);
+    ready.yardsticks.push_back({"quarter_mesh", steps_of(small, workshop.tested())});
+    return ready;
+}
+
+void add(std::vector<BenchCase>& cases, const std::string& name, std::function<ReadyCase()> prepare) {
+    cases.push_back({"drag/" + name, std::move(prepare)});
+}
+
+void add_small(std::vector<BenchCase>& cases, Workshop& workshop) {
+    constexpr size_t vertices = 163'842;
+    const DragOptions free;
+    DragOptions blocked;
+    blocked.occluder = Field{};
+    const std::string size = "/" + size_text(vertices);
+    add(cases, "click" + size, [&workshop, free] { return click_case(workshop, vertices, free); });
+    add(cases, "click/ball" + size, [&workshop, blocked] { return click_case(workshop, vertices, blocked); });
+    add(cases, "step" + size, [&workshop, free] { return step_case(workshop, vertices, free); });
+    add(cases, "step/ball" + size, [&workshop, blocked] { return step_case(workshop, vertices, blocked); });
+}
+
+} // namespace
+
+void add_drag_cases(std::vector<BenchCase>& cases, Workshop& workshop, const BenchExtent& extent) {
+    add_small(cases, workshop);
+    if (extent.quick) {
+        return;
+    }
+    constexpr size_t vertices = 1'000'000;
+    DragOptions options;
+    options.occluder = Field{};
+    options.radius = std::acos(1 - 2 * 0.025); // a fortieth of the sphere
+    add(cases, "step/2.5%/1M", [&workshop, options] { return step_case(workshop, vertices, options); });
+    add(cases, "step/same-region/4M",
+        [&workshop, options] { return same_region_case(workshop, vertices, options); });
+    DragOptions whole{
+        .radius = 4, .handles = 4, .occluder = Field{FieldKind::dense, 128}}; // farther than half around
+    add(cases, "step/whole/k4/dense/4M",
+        [&workshop, whole] { return step_case(workshop, 4 * vertices, whole); });
+}
+
+} // namespace anvil
