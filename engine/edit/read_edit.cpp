@@ -253,10 +253,14 @@ void check_handleless(const JsonReader& edit, const Edit& parsed) {
     if (parsed.kind == EditKind::rotate) {
         edit.required("kind").fail_found("without handles nothing turns; use \"translate\"");
     }
-    for (const char* key : {"shape", "least_squares", "refine"}) {
+    for (const char* key : {"shape", "least_squares"}) {
         if (edit.has(key)) {
             edit.required(key).fail("belongs to handles, and the edit has none; remove it");
         }
+    }
+    if (parsed.refine && parsed.refine->criterion != RefineCriterion::space) {
+        edit.required("refine").fail("without handles there is no shape to refine by; use {\"criterion\": "
+                                     "\"space\", \"tolerance\": ...}");
     }
     if (parsed.radius && parsed.anchors.empty()) {
         edit.required("radius").fail("without handles the radius is that of \"anchors\", and the edit has "
@@ -287,6 +291,11 @@ Edit read_edit(const JsonReader& edit) {
     read_options(edit, result);
     if (result.handles.empty()) {
         check_handleless(edit, result);
+    }
+    if (result.dilation && result.refine && result.refine->criterion != RefineCriterion::shape) {
+        edit.required("refine").fail(
+            "what dilation raises depends on the whole contact and is not seen between "
+            "vertices; use the criterion \"shape\"");
     }
     return result;
 }

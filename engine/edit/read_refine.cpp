@@ -29,7 +29,7 @@ void read_tolerances(const JsonReader& refine, Refine& result) {
 } // namespace
 
 Refine read_refine(const JsonReader& refine) {
-    refine.check_keys({"criterion", "tolerance", "min_edge", "max_vertices", "flip"});
+    refine.check_keys({"criterion", "tolerance", "min_edge", "max_vertices", "flip", "relax"});
     Refine result;
     if (const auto criterion = refine.find("criterion")) {
         result.criterion = criterion->word<RefineCriterion>({{"shape", RefineCriterion::shape},
@@ -45,6 +45,9 @@ Refine read_refine(const JsonReader& refine) {
     }
     if (const auto flip = refine.find("flip")) {
         result.flip = flip->boolean();
+    }
+    if (const auto relax = refine.find("relax")) {
+        result.relax = relax->boolean();
     }
     return result;
 }
@@ -69,6 +72,9 @@ nlohmann::ordered_json written(const Refine& refine) {
     }
     if (refine.flip) {
         result["flip"] = true;
+    }
+    if (refine.relax) {
+        result["relax"] = true;
     }
     return result;
 }

@@ -254,6 +254,7 @@ struct Refine {
     double min_edge = 0;            ///< world units: no edge is cut into shorter pieces
     std::optional<uint32_t> max_vertices; ///< of the mesh; absent: 1,000,000, or twice what it has
     bool flip = false;                    ///< flip new edges for larger angles
+    bool relax = false;                   ///< slide new vertices along the edges that they cut, for the same
 
     bool operator==(const Refine&) const = default;
 };

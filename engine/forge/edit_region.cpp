@@ -27,20 +27,6 @@ DistanceQuery anchor_query(const Edit& edit, size_t j, Metric metric, const std:
     return query;
 }
 
-/// Half of the largest finite distance, the default radius of influence.
-double half_reach(const DistanceField& field, const std::string& place) {
-    double largest = 0;
-    for (double d : field.distances) {
-        largest = std::max(largest, d);
-    }
-    if (!(largest > 0)) {
-        throw InputError(place +
-                         ": nothing but the handle itself is within reach, so the default radius would be 0: "
-                         "give \"radius\"");
-    }
-    return 0.5 * largest;
-}
-
 /// Ascending: every vertex within some handle's radius, without the pinned ones; all where there is no field.
 std::vector<uint32_t> region_vertices(const EditDistances& measured, const std::vector<double>& radii,
                                       VertexNumbers& numbers) {
@@ -95,25 +81,14 @@ std::string handle_place(const std::string& place, size_t j) {
     return place + ".handles[" + std::to_string(j) + "]";
 }
 
-double radius_within(const DistanceField& field, const DistanceQuery& query, const std::string& place) {
-    return std::isinf(query.radius) ? half_reach(field, place) : query.radius;
-}
-
 /// Without handles: from the anchors, if there are any.
 void measure_from_anchors(const Edit& edit, const std::string& place, SurfaceState& surface,
                           EditDistances& measured) {
     if (!edit.anchors.empty()) {
-        const DistanceQuery query = anchor_query(edit, 0, edit.metric, edit.radius, place, surface);
+        const DistanceQuery query = hammer_query(edit, place, surface);
         measured.fields = surface.distances({&query, 1});
-        measured.radii.push_back(radius_within(measured.fields[0], query, place));
+        measured.radii.push_back(radius_of(query, measured.fields[0].distances, place));
     }
-}
-
-std::string method_name(Metric metric, const DistanceField& field) {
-    if (metric == Metric::euclidean) {
-        return "euclidean";
-    }
-    return field.method == DistanceMethod::exact ? "exact" : "approximate";
 }
 
 } // namespace
@@ -127,6 +102,33 @@ DistanceQuery query_of(const Edit& edit, size_t j, const SurfacePoint& handle_po
         query.anchors.emplace_back().points.push_back(handle_point);
     }
     return query;
+}
+
+DistanceQuery hammer_query(const Edit& edit, const std::string& place, SurfaceState& surface) {
+    return anchor_query(edit, 0, edit.metric, edit.radius, place, surface);
+}
+
+double radius_of(const DistanceQuery& query, const std::vector<double>& distances, const std::string& place) {
+    if (std::isfinite(query.radius)) {
+        return query.radius;
+    }
+    double largest = 0;
+    for (const double d : distances) {
+        largest = std::isfinite(d) ? std::max(largest, d) : largest;
+    }
+    if (!(largest > 0)) {
+        throw InputError(place +
+                         ": nothing but the handle itself is within reach, so the default radius would be 0: "
+                         "give \"radius\"");
+    }
+    return 0.5 * largest;
+}
+
+std::string method_name(Metric metric, DistanceMethod method) {
+    if (metric == Metric::euclidean) {
+        return "euclidean";
+    }
+    return method == DistanceMethod::exact ? "exact" : "approximate";
 }
 
 std::vector<uint32_t> pinned_vertices(const Edit& edit, const std::string& place, SurfaceState& surface) {
@@ -160,15 +162,22 @@ std::vector<ShapeFunction> shapes_of(const Edit& edit) {
     return shapes;
 }
 
-EditDistances measure_distances(const Edit& edit, const std::string& place, SurfaceState& surface) {
+EditDistances handles_of(const Edit& edit, const std::string& place, SurfaceState& surface,
+                         std::vector<DistanceQuery>& queries) {
     EditDistances measured;
-    std::vector<DistanceQuery> queries;
     for (size_t j = 0; j < edit.handles.size(); ++j) {
         const SurfacePoint point = surface.resolve(edit.handles[j].at, handle_place(place, j) + ".at");
         measured.handle_positions.push_back(surface.position_of(point));
         measured.handle_weights.push_back(surface.weights_of(point));
         queries.push_back(query_of(edit, j, point, place, surface));
     }
+    measured.pinned = pinned_vertices(edit, place, surface);
+    return measured;
+}
+
+EditDistances measure_distances(const Edit& edit, const std::string& place, SurfaceState& surface) {
+    std::vector<DistanceQuery> queries;
+    EditDistances measured = handles_of(edit, place, surface, queries);
     if (edit.handles.empty()) {
         measure_from_anchors(edit, place, surface, measured);
     } else {
@@ -176,10 +185,9 @@ EditDistances measure_distances(const Edit& edit, const std::string& place, Surf
     }
     for (size_t j = 0; j < queries.size(); ++j) {
         const DistanceField& field = measured.fields[j];
-        measured.methods.push_back(method_name(queries[j].metric, field));
-        measured.radii.push_back(radius_within(field, queries[j], handle_place(place, j)));
+        measured.methods.push_back(method_name(queries[j].metric, field.method));
+        measured.radii.push_back(radius_of(queries[j], field.distances, handle_place(place, j)));
     }
-    measured.pinned = pinned_vertices(edit, place, surface);
     return measured;
 }
 

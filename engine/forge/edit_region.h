@@ -58,6 +58,19 @@ std::optional<double> given_radius(const Edit& edit, size_t j);
 DistanceQuery query_of(const Edit& edit, size_t j, const SurfacePoint& handle_point, const std::string& place,
                        SurfaceState& surface);
 
+/// Handles and pinned vertices, nothing measured yet. `queries`: one a handle, for its distances.
+EditDistances handles_of(const Edit& edit, const std::string& place, SurfaceState& surface,
+                         std::vector<DistanceQuery>& queries);
+
+/// How the distances of the hammered part of an edit without handles are measured: from its anchors, if it
+/// has any.
+DistanceQuery hammer_query(const Edit& edit, const std::string& place, SurfaceState& surface);
+
+/// The radius of a query, or the default, half of the largest distance. `place` is that of the handle.
+double radius_of(const DistanceQuery& query, const std::vector<double>& distances, const std::string& place);
+
+std::string method_name(Metric metric, DistanceMethod method);
+
 /// The vertices that carry pinned points, ascending, each once.
 std::vector<uint32_t> pinned_vertices(const Edit& edit, const std::string& place, SurfaceState& surface);
 

@@ -113,10 +113,8 @@ class Forger {
         EditReport report;
         report.kind = edit.kind == EditKind::translate ? "translate" : "rotate";
         const size_t points_added = edit.refine ? make_points_vertices(edit, place) : 0;
-        EditRegion region = measure_region(edit, place);
-        if (edit.refine) {
-            region = refine_region(edit, region, place, points_added, report);
-        }
+        const EditRegion region =
+            edit.refine ? refine_region(edit, place, points_added, report) : measure_region(edit, place);
         report.radii = region.radii;
         report.region = region.vertices.size();
         report.distance_methods = region.methods;
@@ -145,33 +143,35 @@ class Forger {
         return added;
     }
 
-    EditRegion refine_region(const Edit& edit, const EditRegion& region, const std::string& place,
-                             size_t points_added, EditReport& report) {
-        RefineState state;
-        {
-            const StageTimer timer(seconds().distance);
-            state = start_refinement(edit, region, place, mesh(), result_.positions, surface());
-        }
+    EditRegion refine_region(const Edit& edit, const std::string& place, size_t points_added,
+                             EditReport& report) {
+        RefineStart start = measure_start(edit, place);
+        EditRegion& region = start.region;
         const StageTimer timer(seconds().refine);
         const std::vector<uint32_t> pinned = pinned_vertices(edit, place, surface());
         const double angle_before = least_angle(mesh().triangles, result_.positions, region.vertices);
-        const auto criterion = criterion_of(edit, region, place);
-        Refinement refinement = refine(mesh().triangles, std::move(state), *criterion,
+        const auto criterion = criterion_of(edit, start, place);
+        Refinement refinement = refine(mesh().triangles, std::move(start.state), *criterion,
                                        options_of(*edit.refine, mesh().vertex_count()), progress_);
-        EditRegion refined = region;
         if (refinement.report.added > 0) {
             adopt(divided(mesh(), std::move(refinement.state.parents), refinement.faces));
-            refined = region_after(region, refinement.state, pinned);
+            fill_region(region, refinement.state, pinned);
         }
         report.refine = summary_of(refinement.report, points_added, place, log_);
         report.refine->min_angle_before = angle_before;
-        report.refine->min_angle_after = least_angle(mesh().triangles, result_.positions, refined.vertices);
-        return refined;
+        report.refine->min_angle_after = least_angle(mesh().triangles, result_.positions, region.vertices);
+        return std::move(region);
+    }
+
+    RefineStart measure_start(const Edit& edit, const std::string& place) {
+        const StageTimer timer(seconds().distance);
+        return start_refinement(edit, place, mesh(), result_.positions, surface());
     }
 
     /// Criteria in space run the whole edit, which the points added so far do not change.
-    std::unique_ptr<EdgeCriterion> criterion_of(const Edit& edit, const EditRegion& region,
+    std::unique_ptr<EdgeCriterion> criterion_of(const Edit& edit, const RefineStart& start,
                                                 const std::string& place) {
+        const EditRegion& region = start.region;
         const Refine& settings = *edit.refine;
         if (settings.criterion == RefineCriterion::shape) {
             return make_shape_criterion();
@@ -180,7 +180,11 @@ class Forger {
         Log unheard; // the edit itself says it again
         const DeformMotion motion =
             find_motion(edit, region, result_.positions, origin_, place, input.occluders, unheard).motion;
-        MovePoints move = [run = TrialRun(backend_, std::move(input), motion, region.radii, origin_)](
+        std::vector<double> radii;
+        for (const HandleField& handle : start.state.handles) {
+            radii.push_back(handle.radius);
+        }
+        MovePoints move = [run = TrialRun(backend_, std::move(input), motion, std::move(radii), origin_)](
                               std::span<const Vec3> places, const std::vector<double>& distances) mutable {
             return run.moved(places, distances);
         };

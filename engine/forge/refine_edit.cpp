@@ -1,6 +1,7 @@
 #include "engine/forge/refine_edit.h"
 
 #include "engine/distance/anchor_blend.h"
+#include "engine/mesh/triangle_angles.h"
 
 #include <algorithm>
 
@@ -32,24 +33,95 @@ std::vector<Vec3> places_of(const std::vector<DistanceSources>& anchors, const M
     return places;
 }
 
-AnchorField field_of(const DistanceSources& anchor, DistanceQuery query, double reach, size_t vertex_count,
-                     SurfaceState& surface) {
-    query.anchors = {anchor};
-    query.radius = reach;
-    AnchorField field;
-    field.distances = surface.distances({&query, 1})[0].dense(vertex_count);
-    if (anchor.points.empty()) {
-        field.kind = SourceKind::line;
-    } else if (query.metric == Metric::euclidean) {
-        field.straight_from = surface.position_of(anchor.points[0]);
-    }
+/// A field that every place is within.
+HandleField everywhere(size_t vertex_count) {
+    HandleField field{ShapeFunction(preset_knots("smooth")), 1, 0, {}};
+    field.anchors.push_back({std::vector<double>(vertex_count, 0), SourceKind::line, std::nullopt});
     return field;
 }
 
-/// atan2 keeps its digits at angles near 0, where acos has none.
-double angle_at(const Vec3& a, const Vec3& b, const Vec3& c) {
-    return std::atan2(glm::length(glm::cross(b - a, c - a)), glm::dot(b - a, c - a));
-}
+class Starter {
+  public:
+    Starter(const Edit& edit, const std::string& place, const Mesh& mesh, std::span<const Vec3> positions,
+            SurfaceState& surface)
+        : edit_(edit), place_(place), mesh_(mesh), positions_(positions), surface_(surface) {}
+
+    RefineStart run() {
+        std::vector<DistanceQuery> queries;
+        start_.region = handles_of(edit_, place_, surface_, queries);
+        start_.state.positions.assign(positions_.begin(), positions_.end());
+        for (size_t j = 0; j < queries.size(); ++j) {
+            measure(queries[j], start_.region.shapes[j], place_ + ".handles[" + std::to_string(j) + "]");
+        }
+        if (queries.empty()) {
+            measure_hammered();
+        }
+        fill_region(start_.region, start_.state, pinned_vertices(edit_, place_, surface_));
+        return std::move(start_);
+    }
+
+  private:
+    void measure(const DistanceQuery& query, const ShapeFunction& shape, const std::string& place) {
+        double reach = infinity;
+        if (std::isfinite(query.radius)) {
+            const std::vector<Vec3> places = places_of(query.anchors, mesh_, positions_, surface_);
+            reach = blend_reach(needed_reach(mesh_.triangles, positions_, places, query.radius),
+                                query.blend_width, query.anchors.size());
+        }
+        HandleField field{shape, 1, query.blend_width, {}};
+        std::vector<DistanceQuery> each;
+        for (const DistanceSources& anchor : query.anchors) {
+            each.push_back(query);
+            each.back().anchors = {anchor};
+            each.back().radius = reach;
+        }
+        const std::vector<DistanceField> found = surface_.distances(each);
+        for (size_t i = 0; i < found.size(); ++i) {
+            field.anchors.push_back(field_of(query, query.anchors[i], found[i]));
+        }
+        set_radius(query, place, field);
+        start_.region.radii.push_back(field.radius);
+        if (!found.empty()) {
+            start_.region.methods.push_back(method_name(query.metric, found.front().method));
+        }
+        start_.state.handles.push_back(std::move(field));
+    }
+
+    AnchorField field_of(const DistanceQuery& query, const DistanceSources& anchor,
+                         const DistanceField& found) const {
+        AnchorField field{found.dense(positions_.size()), SourceKind::point, std::nullopt};
+        if (anchor.points.empty()) {
+            field.kind = SourceKind::line;
+        } else if (query.metric == Metric::euclidean) {
+            field.straight_from = surface_.position_of(anchor.points[0]);
+        }
+        return field;
+    }
+
+    void set_radius(const DistanceQuery& query, const std::string& place, HandleField& field) const {
+        std::vector<double> distances;
+        for (uint32_t v = 0; v < positions_.size() && std::isinf(query.radius); ++v) {
+            distances.push_back(field.distance(v));
+        }
+        field.radius = radius_of(query, distances, place);
+    }
+
+    void measure_hammered() {
+        if (edit_.anchors.empty()) {
+            start_.state.handles.push_back(everywhere(positions_.size()));
+        } else {
+            measure(hammer_query(edit_, place_, surface_), ShapeFunction(preset_knots("smooth")), place_);
+            start_.region.methods.clear();
+        }
+    }
+
+    const Edit& edit_;
+    const std::string& place_;
+    const Mesh& mesh_;
+    std::span<const Vec3> positions_;
+    SurfaceState& surface_;
+    RefineStart start_;
+};
 
 } // namespace
 
@@ -71,28 +143,12 @@ std::vector<SurfacePoint> points_of(const Edit& edit, const std::string& place, 
     return points;
 }
 
-RefineState start_refinement(const Edit& edit, const EditRegion& region, const std::string& place,
-                             const Mesh& mesh, std::span<const Vec3> positions, SurfaceState& surface) {
-    RefineState state{{positions.begin(), positions.end()}, {}, {}};
-    for (size_t j = 0; j < edit.handles.size(); ++j) {
-        const SurfacePoint handle =
-            surface.resolve(edit.handles[j].at, place + ".handles[" + std::to_string(j) + "].at");
-        const DistanceQuery query = query_of(edit, j, handle, place, surface);
-        const std::vector<Vec3> places = places_of(query.anchors, mesh, positions, surface);
-        const double reach = blend_reach(needed_reach(mesh.triangles, positions, places, region.radii[j]),
-                                         query.blend_width, query.anchors.size());
-        HandleField field{region.shapes[j], region.radii[j], query.blend_width, {}};
-        for (const DistanceSources& anchor : query.anchors) {
-            field.anchors.push_back(field_of(anchor, query, reach, positions.size(), surface));
-        }
-        state.handles.push_back(std::move(field));
-    }
-    return state;
+RefineStart start_refinement(const Edit& edit, const std::string& place, const Mesh& mesh,
+                             std::span<const Vec3> positions, SurfaceState& surface) {
+    return Starter(edit, place, mesh, positions, surface).run();
 }
 
-EditRegion region_after(const EditRegion& before, const RefineState& state,
-                        const std::vector<uint32_t>& pinned) {
-    EditRegion region = before;
+void fill_region(EditRegion& region, const RefineState& state, const std::vector<uint32_t>& pinned) {
     region.vertices.clear();
     for (uint32_t v = 0; v < state.positions.size(); ++v) {
         const bool reached = std::any_of(state.handles.begin(), state.handles.end(), [v](const auto& handle) {
@@ -103,18 +159,19 @@ EditRegion region_after(const EditRegion& before, const RefineState& state,
         }
     }
     region.fields.clear();
-    for (const HandleField& handle : state.handles) {
+    for (size_t j = 0; j < region.shapes.size(); ++j) {
+        const HandleField& handle = state.handles[j];
         for (const uint32_t v : region.vertices) {
             region.fields.push_back(handle.distance(v) / handle.radius);
         }
     }
-    return region;
 }
 
 RefineOptions options_of(const Refine& refine, size_t vertex_count) {
     RefineOptions options;
     options.min_edge = refine.min_edge;
     options.flip = refine.flip;
+    options.relax = refine.relax;
     switch (refine.criterion) {
     case RefineCriterion::shape:
         options.tolerance = refine.shape_tolerance;
@@ -173,11 +230,7 @@ double least_angle(std::span<const Triangle> triangles, std::span<const Vec3> po
         if (!chosen[t[0]] && !chosen[t[1]] && !chosen[t[2]]) {
             continue;
         }
-        double least_here = infinity;
-        for (int i = 0; i < 3; ++i) {
-            least_here = std::min(
-                least_here, angle_at(positions[t[i]], positions[t[(i + 1) % 3]], positions[t[(i + 2) % 3]]));
-        }
+        const double least_here = least_angle_of(positions[t[0]], positions[t[1]], positions[t[2]]);
         least = least_here > 0 ? std::min(least, least_here) : least;
     }
     return std::isfinite(least) ? glm::degrees(least) : 0;

@@ -12,14 +12,20 @@ namespace anvil {
 /// and anchors (lines by every edge that they cross).
 std::vector<SurfacePoint> points_of(const Edit& edit, const std::string& place, SurfaceState& surface);
 
-/// What refinement starts from: the handles' distances at every vertex, one field per anchor, as far as it
-/// needs them. The points of the edit are vertices of `mesh`.
-RefineState start_refinement(const Edit& edit, const EditRegion& region, const std::string& place,
-                             const Mesh& mesh, std::span<const Vec3> positions, SurfaceState& surface);
+/// What refinement starts from.
+struct RefineStart {
+    EditRegion region; ///< as find_region() finds it, its distances measured once
+    /// The handles' distances at every vertex, one field per anchor, as far as refinement needs them. Without
+    /// handles there is one for what the hammer may act on: its anchors, or a field that is 0 everywhere.
+    RefineState state;
+};
 
-/// The region with the vertices that were added, by the distances that they got.
-EditRegion region_after(const EditRegion& before, const RefineState& state,
-                        const std::vector<uint32_t>& pinned);
+/// The points of the edit are vertices of `mesh`. @throws InputError as find_region() does.
+RefineStart start_refinement(const Edit& edit, const std::string& place, const Mesh& mesh,
+                             std::span<const Vec3> positions, SurfaceState& surface);
+
+/// Fills in the vertices and fields of the region by the distances at all vertices.
+void fill_region(EditRegion& region, const RefineState& state, const std::vector<uint32_t>& pinned);
 
 RefineOptions options_of(const Refine& refine, size_t vertex_count);
 

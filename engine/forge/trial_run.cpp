@@ -9,9 +9,12 @@ std::vector<Vec3> TrialRun::moved(std::span<const Vec3> places, const std::vecto
     input_.points.resize(n);
     std::transform(places.begin(), places.end(), input_.points.begin(),
                    [this](const Vec3& p) { return p - origin_; });
-    input_.fields.resize(distances.size());
+    std::vector<double> fields(distances.size());
     for (size_t i = 0; i < distances.size(); ++i) {
-        input_.fields[i] = distances[i] / radii_[i / n];
+        fields[i] = distances[i] / radii_[i / n];
+    }
+    if (input_.handle_count > 0) {
+        input_.fields = fields;
     }
     find_start_distances(input_);
     const auto session = backend_.prepare(input_);
@@ -19,8 +22,8 @@ std::vector<Vec3> TrialRun::moved(std::span<const Vec3> places, const std::vecto
     std::vector<Vec3> ends = finished_ends(input_, session->download()).ends;
     for (size_t i = 0; i < n; ++i) {
         bool reached = false;
-        for (size_t f = i; f < input_.fields.size(); f += n) {
-            reached = reached || input_.fields[f] <= 1;
+        for (size_t f = i; f < fields.size(); f += n) {
+            reached = reached || fields[f] <= 1;
         }
         ends[i] = reached ? ends[i] + origin_ : places[i];
     }

@@ -3,6 +3,7 @@
 #include "engine/refine/creases.h"
 #include "engine/refine/flip_edges.h"
 #include "engine/refine/longest_first.h"
+#include "engine/refine/relax_vertices.h"
 
 #include <numeric>
 
@@ -42,10 +43,10 @@ class Refiner {
             if (splits.empty() && !full_) {
                 splits = find_face_splits();
             }
-            const std::vector<uint32_t> again = let_longest_first(splits);
             if (splits_everywhere_) {
                 faces = all_faces();
             }
+            const std::vector<uint32_t> again = let_longest_first(splits, faces);
             if (!keep_within_limit(splits)) {
                 splits.clear();
             }
@@ -56,8 +57,9 @@ class Refiner {
             });
             edges.resize(mesh_.edges().size() - first_new_edge);
             std::iota(edges.begin(), edges.end(), static_cast<uint32_t>(first_new_edge));
-            if (!splits.empty()) {
+            if (!splits.empty() && !again.empty()) {
                 edges.insert(edges.end(), again.begin(), again.end());
+                faces = all_faces(); // those on their other sides were not changed
             }
             edges.erase(
                 std::remove_if(edges.begin(), edges.end(), [this](uint32_t e) { return mesh_.is_split(e); }),
@@ -140,14 +142,16 @@ class Refiner {
         return splits;
     }
 
-    /// @return edges that are to be looked at again.
-    std::vector<uint32_t> let_longest_first(std::vector<EdgeSplit>& splits) {
+    /// `faces` become all of them where splits spread. @return edges that are to be looked at again.
+    std::vector<uint32_t> let_longest_first(std::vector<EdgeSplit>& splits, std::vector<uint32_t>& faces) {
         parted_.resize(mesh_.edges().size(), 0);
-        GivenWay given = put_longest_first(mesh_, state_.positions, thinnest, parted_, splits);
+        GivenWay given = put_longest_first(mesh_, faces, state_.positions, thinnest, parted_, splits);
         for (const uint32_t edge : given.blocked) {
             parted_[edge] = 1;
         }
-        splits_everywhere_ = splits_everywhere_ || !given.later.empty();
+        if (!given.later.empty() && !splits_everywhere_) {
+            faces = all_faces();
+        }
         return std::move(given.later);
     }
 
@@ -293,6 +297,9 @@ class Refiner {
         if (options_.flip) {
             report_.max_error = std::max(report_.max_error, flip(faces));
         }
+        if (options_.relax) {
+            report_.max_error = std::max(report_.max_error, relax(faces));
+        }
         progress_.report("refine", 1);
         return {std::move(state_), std::move(faces), report_};
     }
@@ -311,6 +318,14 @@ class Refiner {
         };
         rules.tolerance = options_.tolerance;
         return flip_edges(faces, state_.positions, rules);
+    }
+
+    double relax(const std::vector<EdgeMesh::Face>& faces) {
+        RelaxRules rules{std::vector<char>(labels_.size(), 0), options_.tolerance, &criterion_};
+        for (size_t v = 0; v < labels_.size(); ++v) {
+            rules.fixed[v] = labels_[v] != no_index ? 1 : 0;
+        }
+        return relax_vertices(state_, faces, rules);
     }
 
     RefineState state_;
@@ -345,21 +360,7 @@ std::vector<EdgeCriterion::FaceFinding> EdgeCriterion::measure_faces(const Refin
     return {};
 }
 
-uint32_t RefineState::add_vertex(const VertexParents& p) {
-    const double length = glm::distance(positions[p.a], positions[p.b]);
-    const Vec3 place = between(positions[p.a], positions[p.b], p.place);
-    for (HandleField& handle : handles) {
-        for (AnchorField& anchor : handle.anchors) {
-            const auto& d = anchor.distances;
-            anchor.distances.push_back(anchor.straight_from
-                                           ? glm::distance(*anchor.straight_from, place)
-                                           : distance_between(d[p.a], d[p.b], length, p.place, anchor.kind));
-        }
-    }
-    positions.push_back(place);
-    parents.push_back(p);
-    return static_cast<uint32_t>(positions.size() - 1);
-}
+void EdgeCriterion::vertices_moved(const RefineState& /*state*/, std::span<const uint32_t> /*vertices*/) {}
 
 Refinement refine(std::span<const Triangle> triangles, RefineState state, EdgeCriterion& criterion,
                   const RefineOptions& options, Progress& progress) {

@@ -14,6 +14,7 @@ struct RefineOptions {
     double min_edge = 0;             ///< world units: no edge is cut into pieces shorter than this
     size_t max_vertices = 1'000'000; ///< of the whole mesh, old and new
     bool flip = false; ///< at the end, flip edges inside divided triangles for larger angles (see flip_edges)
+    bool relax = false; ///< and slide new vertices along the edges that they were put on (see relax_vertices)
 };
 
 enum class RefineStop { tolerance, min_edge, max_vertices, parting };
@@ -26,6 +27,13 @@ struct RefineState {
 
     /// Appends a vertex, with the distances that the edge between its parents gives.
     uint32_t add_vertex(const VertexParents& parents_of_new);
+
+    /// Puts a new vertex that is no vertex's parent elsewhere between its own.
+    void move_vertex(uint32_t vertex, double place);
+
+  private:
+    Vec3 place_of(const VertexParents& parents) const;
+    double distance_at(const AnchorField& anchor, const VertexParents& parents) const;
 };
 
 /// Says how wrong linear interpolation is on edges; in batches, since some criteria run the whole edit.
@@ -50,6 +58,9 @@ class EdgeCriterion {
     /// The error inside each face, where edges do not tell it; empty: they do.
     virtual std::vector<FaceFinding> measure_faces(const RefineState& state, std::span<const Triangle> faces,
                                                    double enough);
+
+    /// New vertices have other places and distances than when it last saw them.
+    virtual void vertices_moved(const RefineState& state, std::span<const uint32_t> vertices);
 };
 
 /// eps = max over handles of |phi_j(g_j(s) / R_j) - linear interpolation of its end values|: dimensionless.

@@ -36,6 +36,11 @@ class WorseOfBoth : public EdgeCriterion {
         return findings;
     }
 
+    void vertices_moved(const RefineState& state, std::span<const uint32_t> vertices) override {
+        first_->vertices_moved(state, vertices);
+        second_->vertices_moved(state, vertices);
+    }
+
   private:
     std::unique_ptr<EdgeCriterion> first_, second_;
     double first_tolerance_, second_tolerance_;

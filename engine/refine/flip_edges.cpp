@@ -1,5 +1,7 @@
 #include "engine/refine/flip_edges.h"
 
+#include "engine/mesh/triangle_angles.h"
+
 #include <set>
 #include <tuple>
 
@@ -22,10 +24,6 @@ struct Flip {
     uint32_t a, b, c, d;
     double gain;
 };
-
-double angle_at(const Vec3& a, const Vec3& b, const Vec3& c) {
-    return std::atan2(glm::length(glm::cross(b - a, c - a)), glm::dot(b - a, c - a));
-}
 
 class Flipper {
   public:
@@ -89,8 +87,7 @@ class Flipper {
     }
 
     double least_angle(uint32_t a, uint32_t b, uint32_t c) const {
-        return std::min(
-            {angle_at(p_[a], p_[b], p_[c]), angle_at(p_[b], p_[c], p_[a]), angle_at(p_[c], p_[a], p_[b])});
+        return least_angle_of(p_[a], p_[b], p_[c]);
     }
 
     /// Of flips that share a face, the one that gains most.

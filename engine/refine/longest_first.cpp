@@ -9,15 +9,23 @@ class LongestFirst {
     LongestFirst(const EdgeMesh& mesh, std::span<const Vec3> positions, double thinnest,
                  const std::vector<char>& fixed, std::vector<EdgeSplit>& splits)
         : mesh_(mesh), positions_(positions), thinnest_(thinnest), fixed_(fixed), splits_(splits),
-          split_of_(mesh.edges().size(), no_index) {
+          made_before_(splits.size()), split_of_(mesh.edges().size(), no_index) {
         for (uint32_t i = 0; i < splits.size(); ++i) {
             split_of_[splits[i].edge] = i;
         }
         fate_.assign(splits.size(), Fate::made);
     }
 
-    GivenWay run() {
-        while (sweep()) {
+    GivenWay run(std::span<const uint32_t> candidates) {
+        for (const uint32_t face : candidates) {
+            look_at(mesh_.faces()[face]);
+        }
+        // What gives way may do so to an edge of any face.
+        for (size_t known = 0; splits_.size() > made_before_ + known;) {
+            known = splits_.size() - made_before_;
+            for (const EdgeMesh::Face& face : mesh_.faces()) {
+                look_at(face);
+            }
         }
         GivenWay result;
         size_t kept = 0;
@@ -47,17 +55,10 @@ class LongestFirst {
         return glm::distance(positions_[e.a], positions_[e.b]);
     }
 
-    bool sweep() {
-        const size_t before = splits_.size();
-        for (const EdgeMesh::Face& face : mesh_.faces()) {
-            if (is_split(face.edges[0]) || is_split(face.edges[1]) || is_split(face.edges[2])) {
-                look_at(face);
-            }
-        }
-        return splits_.size() > before;
-    }
-
     void look_at(const EdgeMesh::Face& face) {
+        if (!is_split(face.edges[0]) && !is_split(face.edges[1]) && !is_split(face.edges[2])) {
+            return;
+        }
         const Vec3 lengths(length_of(face.edges[0]), length_of(face.edges[1]), length_of(face.edges[2]));
         int longest = lengths[1] > lengths[0] ? 1 : 0;
         longest = lengths[2] > lengths[longest] ? 2 : longest;
@@ -95,15 +96,18 @@ class LongestFirst {
     double thinnest_;
     const std::vector<char>& fixed_;
     std::vector<EdgeSplit>& splits_;
+    size_t made_before_;             ///< splits that were asked for
     std::vector<uint32_t> split_of_; ///< per edge: index into the splits
     std::vector<Fate> fate_;         ///< per split
 };
 
 } // namespace
 
-GivenWay put_longest_first(const EdgeMesh& mesh, std::span<const Vec3> positions, double thinnest,
-                           const std::vector<char>& fixed, std::vector<EdgeSplit>& splits) {
-    return LongestFirst(mesh, positions, thinnest, fixed, splits).run();
+GivenWay put_longest_first(const EdgeMesh& mesh, std::span<const uint32_t> candidates,
+                           std::span<const Vec3> positions, double thinnest, const std::vector<char>& fixed,
+                           std::vector<EdgeSplit>& splits) {
+    return splits.empty() ? GivenWay{}
+                          : LongestFirst(mesh, positions, thinnest, fixed, splits).run(candidates);
 }
 
 } // namespace anvil

@@ -20,8 +20,10 @@ struct GivenWay {
 
 /// In faces lower over their longest edge than `thinnest` of its length, edges that are to be split give way
 /// to the longest one, which is split in its middle; and so on with the face beyond. Splits on creases stay.
+/// @param candidates the faces that have an edge to be split.
 /// @param fixed per edge: not 0 where it cannot be split.
-GivenWay put_longest_first(const EdgeMesh& mesh, std::span<const Vec3> positions, double thinnest,
-                           const std::vector<char>& fixed, std::vector<EdgeSplit>& splits);
+GivenWay put_longest_first(const EdgeMesh& mesh, std::span<const uint32_t> candidates,
+                           std::span<const Vec3> positions, double thinnest, const std::vector<char>& fixed,
+                           std::vector<EdgeSplit>& splits);
 
 } // namespace anvil

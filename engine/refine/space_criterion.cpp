@@ -85,6 +85,18 @@ class SpaceCriterion : public EdgeCriterion {
         return findings;
     }
 
+    void vertices_moved(const RefineState& state, std::span<const uint32_t> vertices) override {
+        follow_vertices(state);
+        Points points;
+        for (const uint32_t v : vertices) {
+            add_vertex(state, v, points);
+        }
+        const std::vector<Vec3> ends = moved(points, state.handles.size());
+        for (size_t i = 0; i < ends.size(); ++i) {
+            ends_[vertices[i]] = ends[i];
+        }
+    }
+
   private:
     /// Points to move, with the distances of every handle, point by point.
     struct Points {
@@ -103,14 +115,18 @@ class SpaceCriterion : public EdgeCriterion {
         return n == 0 ? std::vector<Vec3>{} : move_(points.places, by_handle);
     }
 
+    static void add_vertex(const RefineState& state, uint32_t v, Points& points) {
+        points.places.push_back(state.positions[v]);
+        for (const HandleField& handle : state.handles) {
+            points.distances.push_back(handle.distance(v));
+        }
+    }
+
     /// Where the vertices that are new since the last call end.
     void follow_vertices(const RefineState& state) {
         Points points;
         for (auto v = static_cast<uint32_t>(ends_.size()); v < state.positions.size(); ++v) {
-            points.places.push_back(state.positions[v]);
-            for (const HandleField& handle : state.handles) {
-                points.distances.push_back(handle.distance(v));
-            }
+            add_vertex(state, v, points);
         }
         const std::vector<Vec3> ends = moved(points, state.handles.size());
         ends_.insert(ends_.end(), ends.begin(), ends.end());

@@ -17,8 +17,10 @@ Refine refine_of(const std::string& text) {
 TEST_CASE("refine takes a criterion, its tolerance and limits, and is written as it is read") {
     CHECK(refine_of("{}") == Refine{});
     const Refine shape = refine_of(
-        R"({"criterion": "shape", "tolerance": 0.01, "min_edge": 0.5, "max_vertices": 70, "flip": true})");
+        R"({"criterion": "shape", "tolerance": 0.01, "min_edge": 0.5, "max_vertices": 70, "flip": true,
+           "relax": true})");
     CHECK(shape.flip);
+    CHECK(shape.relax);
     CHECK(shape.shape_tolerance == 0.01);
     CHECK(shape.min_edge == 0.5);
     CHECK(shape.max_vertices == 70U);
@@ -41,4 +43,6 @@ TEST_CASE("what refine cannot mean is refused at its place") {
     refuse(R"({"min_edge": -1})", {"refine.min_edge", "found -1"});
     refuse(R"({"max_vertices": 1.5})", {"refine.max_vertices", "found 1.5"});
     refuse(R"({"tolerence": 1})", {"tolerence", "tolerance"});
+    refuse(R"({"relax": 3})", {"refine.relax", "found 3"});
+    refuse(R"({"criterion": "space", "tolerance": 1}, "dilation": {"form": "depth"})", {"refine", "shape"});
 }

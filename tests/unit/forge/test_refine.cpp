@@ -1,4 +1,5 @@
 #include "engine/core/error.h"
+#include "engine/edit/recipe_json.h"
 #include "engine/mesh/search_tree.h"
 #include "tests/support/forging.h"
 #include "tests/support/mesh_checks.h"
@@ -161,4 +162,28 @@ TEST_CASE("An edit that linear interpolation gives exactly adds no vertex") {
     CHECK(!result.refined);
     CHECK(result.parents.empty());
     CHECK(result.report.edits[0].refine->added == 0);
+}
+
+TEST_CASE("The bundled recipes put sharp features and fine detail on coarse samples") {
+    const std::string folder = ANVIL_TEST_DATA "/../../app/example/";
+    const ForgeResult features =
+        forged_on_cpu(make_sample("icosphere", 162), read_recipe(folder + "sharp_features.json"));
+    REQUIRE(features.refined);
+    CHECK(facts_of(*features.refined).closed_manifold());
+    REQUIRE(features.report.edits.size() == 4);
+    for (const EditReport& edit : features.report.edits) {
+        CHECK(edit.refine->stopped_by == "tolerance");
+        CHECK(edit.refine->max_error <= 0.01);
+        CHECK(edit.target_errors[0] < 1e-12);
+    }
+    const Mesh plane = make_sample("plane", 121);
+    CHECK(plane.triangles.size() == 200);
+    CHECK(!forged_on_cpu(plane, read_recipe(folder + "fine_detail_unrefined.json")).refined);
+    const ForgeResult fine = forged_on_cpu(plane, read_recipe(folder + "fine_detail.json"));
+    REQUIRE(fine.refined);
+    const ShapeFunction wave(preset_knots("wave"));
+    for (size_t v = 0; v < fine.positions.size(); ++v) {
+        const double t = glm::distance(fine.refined->positions[v], Vec3(0.02, 0.01, 0)) / 0.45;
+        CHECK(fine.positions[v].z == Approx(0.16 * (t < 1 ? wave(t) : 0)).margin(1e-9));
+    }
 }

@@ -105,7 +105,8 @@ TEST_CASE("In a thin face the longest edge is split first, and nothing where it 
     const uint32_t flank = mesh.faces()[0].edges[1];
     const auto split = [&](double thinnest, const std::vector<char>& fixed, uint32_t crease) {
         std::vector<EdgeSplit> splits{{flank, 0.4, 7, crease}};
-        const GivenWay given = put_longest_first(mesh, positions, thinnest, fixed, splits);
+        const GivenWay given =
+            put_longest_first(mesh, std::array<uint32_t, 2>{0, 1}, positions, thinnest, fixed, splits);
         return std::pair(splits, given);
     };
     std::vector<char> fixed(mesh.edges().size(), 0);
