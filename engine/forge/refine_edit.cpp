@@ -50,41 +50,56 @@ class Starter {
         std::vector<DistanceQuery> queries;
         start_.region = handles_of(edit_, place_, surface_, queries);
         start_.state.positions.assign(positions_.begin(), positions_.end());
-        for (size_t j = 0; j < queries.size(); ++j) {
-            measure(queries[j], start_.region.shapes[j], place_ + ".handles[" + std::to_string(j) + "]");
-        }
-        if (queries.empty()) {
-            measure_hammered();
+        if (edit_.handles.empty() && edit_.anchors.empty()) {
+            start_.state.handles.push_back(everywhere(positions_.size()));
+        } else if (edit_.handles.empty()) {
+            measure({hammer_query(edit_, place_, surface_)});
+            start_.region.methods.clear();
+        } else {
+            measure(queries);
         }
         fill_region(start_.region, start_.state, pinned_vertices(edit_, place_, surface_));
         return std::move(start_);
     }
 
   private:
-    void measure(const DistanceQuery& query, const ShapeFunction& shape, const std::string& place) {
-        double reach = infinity;
-        if (std::isfinite(query.radius)) {
-            const std::vector<Vec3> places = places_of(query.anchors, mesh_, positions_, surface_);
-            reach = blend_reach(needed_reach(mesh_.triangles, positions_, places, query.radius),
-                                query.blend_width, query.anchors.size());
-        }
-        HandleField field{shape, 1, query.blend_width, {}};
+    /// One field a query and anchor, all at once.
+    void measure(const std::vector<DistanceQuery>& queries) {
         std::vector<DistanceQuery> each;
-        for (const DistanceSources& anchor : query.anchors) {
-            each.push_back(query);
-            each.back().anchors = {anchor};
-            each.back().radius = reach;
+        for (const DistanceQuery& query : queries) {
+            const double reach = reach_of(query);
+            for (const DistanceSources& anchor : query.anchors) {
+                each.push_back(query);
+                each.back().anchors = {anchor};
+                each.back().radius = reach;
+            }
         }
         const std::vector<DistanceField> found = surface_.distances(each);
-        for (size_t i = 0; i < found.size(); ++i) {
-            field.anchors.push_back(field_of(query, query.anchors[i], found[i]));
+        auto next = found.begin();
+        for (size_t j = 0; j < queries.size(); ++j) {
+            const DistanceQuery& query = queries[j];
+            const bool is_hammer = start_.region.shapes.empty();
+            HandleField field{is_hammer ? ShapeFunction(preset_knots("smooth")) : start_.region.shapes[j],
+                              1,
+                              query.blend_width,
+                              {}};
+            start_.region.methods.push_back(method_name(query.metric, next->method));
+            for (const DistanceSources& anchor : query.anchors) {
+                field.anchors.push_back(field_of(query, anchor, *next++));
+            }
+            set_radius(query, is_hammer ? place_ : place_ + ".handles[" + std::to_string(j) + "]", field);
+            start_.region.radii.push_back(field.radius);
+            start_.state.handles.push_back(std::move(field));
         }
-        set_radius(query, place, field);
-        start_.region.radii.push_back(field.radius);
-        if (!found.empty()) {
-            start_.region.methods.push_back(method_name(query.metric, found.front().method));
+    }
+
+    double reach_of(const DistanceQuery& query) const {
+        if (std::isinf(query.radius)) {
+            return infinity;
         }
-        start_.state.handles.push_back(std::move(field));
+        const std::vector<Vec3> places = places_of(query.anchors, mesh_, positions_, surface_);
+        return blend_reach(needed_reach(mesh_.triangles, positions_, places, query.radius), query.blend_width,
+                           query.anchors.size());
     }
 
     AnchorField field_of(const DistanceQuery& query, const DistanceSources& anchor,
@@ -104,15 +119,6 @@ class Starter {
             distances.push_back(field.distance(v));
         }
         field.radius = radius_of(query, distances, place);
-    }
-
-    void measure_hammered() {
-        if (edit_.anchors.empty()) {
-            start_.state.handles.push_back(everywhere(positions_.size()));
-        } else {
-            measure(hammer_query(edit_, place_, surface_), ShapeFunction(preset_knots("smooth")), place_);
-            start_.region.methods.clear();
-        }
     }
 
     const Edit& edit_;

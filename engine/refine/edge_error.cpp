@@ -13,7 +13,7 @@ constexpr std::array<double, 6> piece_samples{0.07, 0.24, 0.41, 0.59, 0.76, 0.93
 constexpr std::array<double, 4> foot_samples{0.3, 0.8, 1.6, 4};
 // A sample this far below what counts hides no larger extremum beside it.
 constexpr double worth_climbing = 0.5;
-constexpr int climbing_steps = 24;
+constexpr int climbing_steps = 10;
 constexpr int blend_samples = 24;
 constexpr int bisections = 50;
 

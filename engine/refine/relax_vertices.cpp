@@ -8,11 +8,14 @@ namespace anvil {
 
 namespace {
 
-constexpr int most_sweeps = 12;
+constexpr int most_sweeps = 20;
 // Gains below this, in radians, are not worth another sweep.
 constexpr double least_gain = 1e-3;
 // Places tried between the parents; the best one's surroundings are then tried once more.
 constexpr int tries = 24;
+// A move that breaks the tolerance is tried again over this share of its way, down to the least one.
+constexpr double shorter = 0.4;
+constexpr double least_way = 0.05;
 
 /// The faces around each vertex.
 struct Stars {
@@ -59,6 +62,7 @@ class Relaxer {
             active_[parents.a] = active_[parents.b] = 0;
         }
         movable_ = active_;
+        ways_.assign(active_.size(), 1);
     }
 
     double run() {
@@ -101,6 +105,10 @@ class Relaxer {
         const double around = 1.0 / tries;
         try_places(std::max(0.0, best.place - around), std::min(1.0, best.place + around));
         active_[v] = 0;
+        if (ways_[v] < 1) {
+            best.place = best.before + ways_[v] * (best.place - best.before);
+            best.gain = least_angle_at(v, best.place) - now;
+        }
         if (best.gain > least_gain) {
             moves.push_back(best);
         }
@@ -179,7 +187,8 @@ class Relaxer {
             if (errors[i] > rules_.tolerance) {
                 state_.move_vertex(v, moves[i].before);
                 returned.push_back(v);
-                movable_[v] = 0;
+                ways_[v] *= shorter;
+                active_[v] = ways_[v] >= least_way ? 1 : 0;
                 continue;
             }
             largest_error_ = std::max(largest_error_, errors[i]);
@@ -211,6 +220,7 @@ class Relaxer {
     size_t first_;              ///< vertex that is new
     std::vector<char> active_;  ///< per vertex: whether it may gain by a move
     std::vector<char> movable_; ///< per vertex: whether it may move at all
+    std::vector<double> ways_;  ///< per vertex: the share of the way to its best place that it may go
     double largest_error_ = 0;
 };
 

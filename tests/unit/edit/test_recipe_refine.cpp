@@ -44,5 +44,6 @@ TEST_CASE("what refine cannot mean is refused at its place") {
     refuse(R"({"max_vertices": 1.5})", {"refine.max_vertices", "found 1.5"});
     refuse(R"({"tolerence": 1})", {"tolerence", "tolerance"});
     refuse(R"({"relax": 3})", {"refine.relax", "found 3"});
-    refuse(R"({"criterion": "space", "tolerance": 1}, "dilation": {"form": "depth"})", {"refine", "shape"});
+    refuse(R"({"criterion": "space", "tolerance": 1}, "dilation": {"form": "depth", "amount": 1})",
+           {"refine", "shape"});
 }
