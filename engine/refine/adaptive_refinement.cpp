@@ -220,8 +220,8 @@ class Refiner {
                 continue;
             }
             taken[edges[i]] = 1;
-            add_split({edges[i], crossings[i].place, errors_[edges[i]], crossings[i].crease}, spans[i].length,
-                      splits);
+            const uint32_t crease = crossings[i].is_on ? crossings[i].crease : no_index;
+            add_split({edges[i], crossings[i].place, errors_[edges[i]], crease}, spans[i].length, splits);
         }
     }
 

@@ -9,6 +9,8 @@ namespace {
 
 // In radii: nearer than this a vertex is on the crease.
 constexpr double on_crease = 5e-7;
+// Crossings nearer to both ends than this share of the edge are those of a chord.
+constexpr double at_ends = 0.1;
 
 } // namespace
 
@@ -41,11 +43,16 @@ std::vector<Creases::Crossing> Creases::cross(const RefineState& state,
             for (const uint32_t crease : raised_) {
                 const Level& level = levels_[crease];
                 const double margin = on_crease * state.handles[level.handle].radius / edges[i].length;
-                for (const double place : measures[level.handle].crossings(edges[i], level.level)) {
+                const std::vector<double>& places = measures[level.handle].crossings(edges[i], level.level);
+                const bool is_chord = places.size() > 1 && places.front() > margin &&
+                                      places.front() < at_ends && places.back() > 1 - at_ends &&
+                                      places.back() < 1 - margin;
+                for (const double place : places) {
                     const double from_end = std::min(place, 1 - place);
                     if (from_end > std::max(margin, farthest)) {
                         farthest = from_end;
-                        crossings[i] = {crease, place};
+                        crossings[i] =
+                            is_chord ? Crossing{crease, 0.5, false} : Crossing{crease, place, true};
                     }
                 }
             }

@@ -21,10 +21,13 @@ class Creases {
 
     struct Crossing {
         uint32_t crease = no_index;
-        double place = 0; ///< in (0, 1)
+        double place = 0;   ///< in (0, 1)
+        bool is_on = false; ///< the crease is there; else the edge crosses it close to both ends, and `place`
+                            ///< is between
     };
     /// Per edge: the crossing with a crease that lies farthest from both ends; none if all lie so close to an
-    /// end that the end counts as on the crease.
+    /// end that the end counts as on the crease. Chords of a crease that is steep on one side cross it close
+    /// to both ends: cut there, they would be walked along in small steps; cut between, they are halved.
     std::vector<Crossing> cross(const RefineState& state, std::span<const EdgeSpan> edges) const;
 
     /// Sets labels[v] for the vertices that count as on the creases of `fresh`.

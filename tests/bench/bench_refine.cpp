@@ -1,4 +1,5 @@
-// Processor seconds (all threads together) that adaptive refinement takes: inserting alone, and all of it.
+// Processor seconds (all threads together) that adaptive refinement takes: inserting alone, and all of it;
+// and how far the distances of new vertices are off.
 //   bench_refine [SAMPLE:VERTICES or a mesh file] [TOLERANCE ...]
 #include "engine/core/log.h"
 #include "engine/distance/distance.h"
@@ -31,12 +32,13 @@ double seconds(const Work& work) {
     return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-RefineState state_of(const Mesh& mesh, uint32_t vertex, const std::string& preset, double radius) {
+RefineState state_of(const Mesh& mesh, uint32_t vertex, const std::string& preset, double radius,
+                     DistanceMethod method = DistanceMethod::automatic) {
     HandleField handle{ShapeFunction(preset_knots(preset)), radius, 0, {}};
     const Vec3 place = mesh.positions[vertex];
     const double reach = needed_reach(mesh.triangles, mesh.positions, {&place, 1}, radius);
     const SurfacePoint source = vertex_point(mesh, vertex);
-    const DistanceField field = GeodesicSolver(mesh, mesh.positions).solve({&source, 1}, reach);
+    const DistanceField field = GeodesicSolver(mesh, mesh.positions).solve({&source, 1}, reach, method);
     handle.anchors.push_back({field.dense(mesh.vertex_count()), SourceKind::point, std::nullopt});
     return {mesh.positions, {handle}, {}};
 }
@@ -68,6 +70,42 @@ void insert_everywhere(const Mesh& mesh, const RefineState& start) {
         "all together %.2f M/s\n",
         inserted, median(numbering), time, static_cast<double>(inserted) / time / 1e6, median(dividing),
         static_cast<double>(inserted) / (time + median(numbering) + median(dividing)) / 1e6);
+}
+
+/// How far the distances and weights that new vertices got from their edges are from those of a march over
+/// the refined mesh, both exact: the price of no new marching, and of a crease that stays where it was put.
+void compare_with_fresh(const Mesh& mesh, uint32_t vertex, const std::string& preset, double radius,
+                        double tolerance) {
+    RefineState start = state_of(mesh, vertex, preset, radius, DistanceMethod::exact);
+    Progress progress;
+    const auto criterion = make_shape_criterion();
+    const Refinement result =
+        refine(mesh.triangles, std::move(start), *criterion, {tolerance, 0, 2'000'000}, progress);
+    const RefinedMesh refined = divided(mesh, result.state.parents, result.faces);
+    const SurfacePoint source = vertex_point(refined.mesh, vertex);
+    const std::vector<double> fresh = GeodesicSolver(refined.mesh, refined.mesh.positions)
+                                          .solve({&source, 1}, 1.5 * radius, DistanceMethod::exact)
+                                          .dense(refined.mesh.vertex_count());
+    const HandleField& handle = result.state.handles[0];
+    double most = 0, sum = 0, most_weight = 0;
+    size_t count = 0, beyond = 0;
+    for (size_t v = mesh.vertex_count(); v < fresh.size(); ++v) {
+        const double kept = handle.distance(static_cast<uint32_t>(v));
+        if (kept > radius || !std::isfinite(fresh[v])) {
+            continue;
+        }
+        const double weight = std::abs(handle.shape(kept / radius) - handle.shape(fresh[v] / radius));
+        most = std::max(most, std::abs(kept - fresh[v]) / radius);
+        most_weight = std::max(most_weight, weight);
+        sum += std::abs(kept - fresh[v]) / radius;
+        beyond += weight > tolerance ? 1 : 0;
+        ++count;
+    }
+    std::printf(
+        "  %s, tolerance %g: %zu new vertices within R; distances off fresh ones by %.2g R on average, "
+        "%.2g R at most; weights by %.2g at most, %zu by more than the tolerance\n",
+        preset.c_str(), tolerance, count, sum / static_cast<double>(std::max<size_t>(1, count)), most,
+        most_weight, beyond);
 }
 
 void refine_by_shape(const Mesh& mesh, const RefineState& start, double tolerance) {
@@ -115,6 +153,9 @@ int main(int argc, char** argv) {
     }
     for (const double tolerance : tolerances.empty() ? std::vector<double>{1e-3, 1e-5, 3e-6} : tolerances) {
         refine_by_shape(mesh, start, tolerance);
+    }
+    for (const char* preset : {"smooth", "plateau"}) {
+        compare_with_fresh(mesh, static_cast<uint32_t>(mesh.vertex_count() / 2), preset, radius, 0.001);
     }
     return 0;
 }
