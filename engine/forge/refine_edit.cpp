@@ -48,7 +48,10 @@ class Starter {
 
     RefineStart run() {
         std::vector<DistanceQuery> queries;
-        start_.region = handles_of(edit_, place_, surface_, queries);
+        EditDistances handles = handles_of(edit_, place_, surface_, queries);
+        start_.region.handle_positions = std::move(handles.handle_positions);
+        start_.region.handle_weights = std::move(handles.handle_weights);
+        start_.region.shapes = shapes_of(edit_);
         start_.state.positions.assign(positions_.begin(), positions_.end());
         if (edit_.handles.empty() && edit_.anchors.empty()) {
             start_.state.handles.push_back(everywhere(positions_.size()));
@@ -58,7 +61,7 @@ class Starter {
         } else {
             measure(queries);
         }
-        fill_region(start_.region, start_.state, pinned_vertices(edit_, place_, surface_));
+        fill_region(start_.region, start_.state, handles.pinned);
         return std::move(start_);
     }
 
