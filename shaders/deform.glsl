@@ -60,6 +60,11 @@ layout(constant_id = 5) const uint one_sample = 0u;
 layout(constant_id = 6) const uint shape_kinds = 0u; // bit SHAPE_...: there is a node of this kind
 layout(constant_id = 12) const uint moving = 0u;
 layout(constant_id = 13) const uint writes_ends = 0u;
+layout(constant_id = 14) const uint points_each = 1u;   // worked by an invocation, one after the other
+layout(constant_id = 15) const uint kept_handles = 0u;  // 0: shapes and targets are read where they are needed
+layout(constant_id = 16) const uint segments_each = 1u; // of each kept handle's shape
+ShapeSegment kept_segments[(kept_handles + 1u) * segments_each];
+vec3 kept_targets[kept_handles + 1u];
 
 /// Where there are few, by selection: an index that is not a constant would put them all into memory.
 Occluder occluder_at(uint k) {
@@ -102,6 +107,26 @@ uint brick_word(ShapeNode node, uint index) { return field_words[node.words + in
 
 #include "shared/shape_function.h"
 #include "shared/occluder.h"
+
+vec3 target_at(uint s, uint j) {
+    return kept_handles != 0u ? kept_targets[j] : targets[(s - 1u) * params.handle_count + j];
+}
+
+/// Of a kept shape by selection, as with occluder_at().
+float handle_weight(uint j, float t) {
+    if (kept_handles == 0u) {
+        return curve_value(shapes[j], t);
+    }
+    ShapeSegment segment = kept_segments[j * segments_each];
+    for (uint s = 1u; s < segments_each; ++s) {
+        ShapeSegment next = kept_segments[j * segments_each + s];
+        if (next.begin <= t) {
+            segment = next;
+        }
+    }
+    return t <= 1.0 ? segment_value(segment, t) : 0.0;
+}
+
 #include "shared/path.h"
 #include "shared/contact.h"
 
@@ -114,6 +139,16 @@ void prepare() {
     params.motion = motion;
     params.steps = steps;
     params.sample_count = one_sample != 0u ? 1u : params.sample_count;
+    if (kept_handles != 0u) {
+        params.handle_count = kept_handles;
+    }
+    for (uint j = 0u; j < kept_handles; ++j) {
+        kept_targets[j] = targets[j];
+        uint first = shapes[j].first;
+        for (uint s = 0u; s < segments_each; ++s) {
+            kept_segments[j * segments_each + s] = segments[first + s];
+        }
+    }
 #ifdef FEW_OCCLUDERS
     params.occluder_count = occluder_count;
     uint first_node = 0u;
@@ -132,13 +167,17 @@ void prepare() {
 }
 
 void main() {
-    uint i = invocation_index();
     prepare();
-    if (i < params.point_count) {
-        VertexResult result = deformed(i);
-        results[i] = result;
-        if (writes_ends != 0u) {
-            ends[i] = points[i] + result.displacement;
+    uint lane = gl_LocalInvocationID.x;
+    uint first = (invocation_index() - lane) * points_each + lane;
+    for (uint p = 0u; p < points_each; ++p) {
+        uint i = first + p * gl_WorkGroupSize.x;
+        if (i < params.point_count) {
+            VertexResult result = deformed(i);
+            results[i] = result;
+            if (writes_ends != 0u) {
+                ends[i] = points[i] + result.displacement;
+            }
         }
     }
 }

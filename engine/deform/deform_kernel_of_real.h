@@ -15,6 +15,8 @@ struct DeformKernel : OccluderKernel {
     const real* start_distances = nullptr;
 
     const Occluder& occluder_at(uint k) const { return occluders[k]; }
+    real handle_weight(uint j, real t) { return curve_value(shapes[j], t); }
+    real3 target_at(uint s, uint j) const { return targets[(s - 1) * params.handle_count + j]; }
 
 // NOLINTBEGIN: compiled as GLSL too
 #include "shaders/shared/path.h"

@@ -131,7 +131,7 @@ void DragSession::change(const Edit& edit, const EditOccluders& occluders) {
     now_.uses = std::move(uses);
     now_.motion = std::move(motion);
     if (!shapes_stand) {
-        set_shapes(now_.region, *now_.input);
+        set_shapes(now_.region.shapes, *now_.input);
         on_device([this] { now_.session->refresh_shapes(); });
         ++work_.shapes;
     }

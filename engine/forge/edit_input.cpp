@@ -12,10 +12,10 @@ LocalFrame local_frame(const Mesh& mesh) {
     return {box.empty() ? Vec3(0) : box.centre(), box.diagonal()};
 }
 
-void set_shapes(const EditRegion& region, DeformInput& input) {
+void set_shapes(std::span<const ShapeFunction> shapes, DeformInput& input) {
     input.segments.clear();
     input.shapes.clear();
-    for (const ShapeFunction& shape : region.shapes) {
+    for (const ShapeFunction& shape : shapes) {
         input.shapes.push_back(
             {static_cast<uint32_t>(input.segments.size()), static_cast<uint32_t>(shape.segments().size())});
         for (const auto& s : shape.segments()) {
@@ -33,7 +33,7 @@ DeformInput deform_input(const EditRegion& region, std::span<const Vec3> positio
     for (const uint32_t v : region.vertices) {
         input.points.push_back(positions[v] - origin);
     }
-    set_shapes(region, input);
+    set_shapes(region.shapes, input);
     input.occluders = std::move(occluders);
     find_start_distances(input);
     return input;

@@ -22,7 +22,7 @@ DeformInput deform_input(const EditRegion& region, std::span<const Vec3> positio
                          OccluderSet occluders);
 
 /// Fills `segments` and `shapes` alone.
-void set_shapes(const EditRegion& region, DeformInput& input);
+void set_shapes(std::span<const ShapeFunction> shapes, DeformInput& input);
 
 /// How far an edit reaches; a hammer on a whole mesh: half of its diagonal.
 double largest_radius(const EditRegion& region, double diagonal);

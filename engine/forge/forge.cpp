@@ -99,6 +99,7 @@ class Forger {
             like.handle_count = edit.handles.size();
             like.occluders = occluders_->set_for(edit, {origin_, diagonal_, edit.radius.value_or(diagonal_)},
                                                  "edits[" + std::to_string(i) + "]");
+            set_shapes(shapes_of(edit), like);
             DeformMotion motion = foreseen_motion(edit, like.occluders);
             likes.emplace_back(std::move(like), std::move(motion));
         }

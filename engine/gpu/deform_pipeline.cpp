@@ -16,6 +16,8 @@ namespace {
 
 constexpr size_t few_occluders = 4;
 constexpr size_t few_nodes = 8;
+constexpr uint32_t most_kept_segments = 16; // unrolled in every place that blends: compiling takes longer
+constexpr uint32_t points_on_cpu = 8;
 
 /// In the order of the shader's bindings.
 std::vector<ResourceKind> deform_resources() {
@@ -23,6 +25,22 @@ std::vector<ResourceKind> deform_resources() {
     kinds.insert(kinds.end(), kernel::f32::MAX_VOLUMES, ResourceKind::volume_texture);
     kinds.insert(kinds.end(), 3, ResourceKind::storage_buffer); // poses, words of adaptive fields, ends
     return kinds;
+}
+
+/// How many segments each of the shapes has, 0 if they have different numbers or there are none.
+uint32_t segments_of_each(const std::vector<kernel::f64::CurveRange>& shapes) {
+    const bool same = std::all_of(shapes.begin(), shapes.end(),
+                                  [&](const auto& shape) { return shape.count == shapes[0].count; });
+    return shapes.empty() || !same ? 0 : shapes[0].count;
+}
+
+void keep_handles(const DeformInput& input, DeformVariant& variant) {
+    const uint32_t each = segments_of_each(input.shapes);
+    const auto handles = static_cast<uint32_t>(input.handle_count);
+    if (variant.one_sample != 0 && each > 0 && uint64_t{handles} * each <= most_kept_segments) {
+        variant.kept_handles = handles;
+        variant.segments_each = each;
+    }
 }
 
 } // namespace
@@ -40,6 +58,7 @@ DeformVariant variant_of(const DeformInput& input, const DeformMotion& motion) {
     variant.steps = params.steps;
     variant.writes_ends = input.fans.empty() ? 0 : 1;
     variant.one_sample = params.sample_count == 1 ? 1 : 0;
+    keep_handles(input, variant);
     for (const kernel::f64::ShapeNode& node : occluders.nodes) {
         variant.shape_kinds |= 1U << node.kind;
     }
@@ -69,23 +88,36 @@ size_t DeformPipeline::kernel_count() {
     return kernels_.size();
 }
 
-const ComputeKernel& DeformPipeline::kernel(const DeformVariant& variant) {
+DeformVariant DeformPipeline::fitted(DeformVariant variant) const {
+    if (info().type == DeviceType::cpu) {
+        variant.points_each = points_on_cpu;
+    } else {
+        variant.kept_handles = 0;
+        variant.segments_each = 1;
+    }
+    return variant;
+}
+
+const ComputeKernel& DeformPipeline::kernel(const DeformVariant& wanted) {
+    const DeformVariant variant = fitted(wanted);
     const std::scoped_lock lock(mutex_); // whoever asks for what is being compiled waits for it
     for (const auto& [known, kernel] : kernels_) {
         if (known == variant) {
             return *kernel;
         }
     }
-    const std::array<uint32_t, 14> constants{variant.occluders,   variant.volumes,        variant.paper,
-                                             variant.motion,      variant.steps,          variant.one_sample,
-                                             variant.shape_kinds, variant.occluder_count, variant.node_count,
-                                             variant.node_counts, variant.kinds,          variant.influences,
-                                             variant.moving,      variant.writes_ends};
+    const std::array<uint32_t, 17> constants{
+        variant.occluders,    variant.volumes,     variant.paper,       variant.motion,
+        variant.steps,        variant.one_sample,  variant.shape_kinds, variant.occluder_count,
+        variant.node_count,   variant.node_counts, variant.kinds,       variant.influences,
+        variant.moving,       variant.writes_ends, variant.points_each, variant.kept_handles,
+        variant.segments_each};
     const std::span<const uint32_t> spirv =
         variant.few ? std::span<const uint32_t>(deform_few_comp) : std::span<const uint32_t>(deform_comp);
-    kernels_.emplace_back(variant, std::make_unique<ComputeKernel>(
-                                       device_->state(), spirv, deform_resources(),
-                                       sizeof(kernel::f32::KernelParams), deform_workgroup, constants));
+    kernels_.emplace_back(variant,
+                          std::make_unique<ComputeKernel>(device_->state(), spirv, deform_resources(),
+                                                          sizeof(kernel::f32::KernelParams),
+                                                          deform_workgroup * variant.points_each, constants));
     return *kernels_.back().second;
 }
 

@@ -27,18 +27,21 @@ struct DeformVariant {
     uint32_t shape_kinds = 0; ///< bit SHAPE_...: there is a node of this kind
     // Where `few`; 4 bits each, the first lowest:
     uint32_t occluder_count = 0;
-    uint32_t node_count = 0;  ///< of all
-    uint32_t node_counts = 0; ///< of each occluder
-    uint32_t kinds = 0;       ///< of each node
-    uint32_t influences = 0;  ///< of each occluder
-    uint32_t moving = 0;      ///< 1: occluders move
-    uint32_t writes_ends = 0; ///< 1: into a buffer of places too
+    uint32_t node_count = 0;    ///< of all
+    uint32_t node_counts = 0;   ///< of each occluder
+    uint32_t kinds = 0;         ///< of each node
+    uint32_t influences = 0;    ///< of each occluder
+    uint32_t moving = 0;        ///< 1: occluders move
+    uint32_t writes_ends = 0;   ///< 1: into a buffer of places too
+    uint32_t points_each = 1;   ///< that one invocation works after each other
+    uint32_t kept_handles = 0;  ///< handles whose shapes and targets stay in registers: all or 0
+    uint32_t segments_each = 1; ///< of each kept handle's shape
     bool few = false; ///< up to 4 occluders and 8 nodes: kept in registers (no constant: another shader)
 
     bool operator==(const DeformVariant&) const = default;
 };
 
-/// The least variant for an edit.
+/// The least variant for an edit; kernel() fits it to the device.
 DeformVariant variant_of(const DeformInput& input, const DeformMotion& motion);
 
 class DeformPipeline {
@@ -49,7 +52,8 @@ class DeformPipeline {
     DeviceState& device() const { return device_->state(); }
     const DeviceInfo& info() const { return device_->info(); }
 
-    /// Compiled at the first call; stays as long as this object. From any thread. @throws DeviceError
+    /// What the variant becomes on this device, compiled at the first call; stays as long as this object.
+    /// From any thread. @throws DeviceError
     const ComputeKernel& kernel(const DeformVariant& variant);
     size_t kernel_count(); ///< compiled so far
 
@@ -70,6 +74,10 @@ class DeformPipeline {
     template <class Source, class Upload, class Make>
     static std::shared_ptr<const Upload>
     cached(Cache<Source, Upload>& cache, const std::shared_ptr<const Source>& source, const Make& make);
+
+    /// Where the device is a CPU, invocations work several points on what they have read once: lavapipe reads
+    /// a number that is the same for all once for each of its vector's lanes.
+    DeformVariant fitted(DeformVariant variant) const;
 
     std::shared_ptr<Device> device_;
     std::mutex mutex_; ///< of kernels_

@@ -50,8 +50,8 @@ real3 blended(uint i, uint s) {
         return sum;
     }
     for (uint j = 0u; j < params.handle_count; ++j) {
-        real weight = curve_value(shapes[j], fields[j * params.field_stride + i]);
-        PRECISE real3 term = weight * targets[(s - 1u) * params.handle_count + j] - lost;
+        real weight = handle_weight(j, fields[j * params.field_stride + i]);
+        PRECISE real3 term = weight * target_at(s, j) - lost;
         PRECISE real3 next = sum + term;
         lost = (next - sum) - term;
         sum = next;

@@ -187,6 +187,7 @@ TEST_CASE("an edit like one that was warmed compiles nothing more, while others 
     DeformInput like;
     like.handle_count = test.input.handle_count;
     like.occluders = test.input.occluders;
+    like.shapes = test.input.shapes;
     pipeline->kernel(variant_of(like, test.motion));
     CHECK(pipeline->kernel_count() == 1);
     const auto warming =
