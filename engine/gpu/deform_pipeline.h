@@ -54,7 +54,7 @@ class DeformPipeline {
 
     /// What the variant becomes on this device, compiled at the first call; stays as long as this object.
     /// From any thread. @throws DeviceError
-    const ComputeKernel& kernel(const DeformVariant& variant);
+    const ComputeKernel& kernel(const DeformVariant& wanted);
     size_t kernel_count(); ///< compiled so far
 
     const ComputeKernel& normals_kernel() const { return normals_kernel_; }

@@ -64,6 +64,29 @@ TEST_CASE("In space, what an occluder flattens needs no vertices, and what stand
     CHECK(facts_of(*space.refined).euler == facts_of(mesh).euler);
 }
 
+TEST_CASE("In space, an edit that only flattens adds no vertex, and one that stops half way does") {
+    Mesh mesh = make_sample("plane", 121);
+    for (Vec3& p : mesh.positions) {
+        p.z = 0.05 + 0.02 * std::sin(9 * p.x) * std::cos(7 * p.y); // 0.03 to 0.07
+    }
+    const auto pressed_down_to = [&](double height) {
+        return forged_on_cpu(
+            mesh,
+            recipe_of("{ 'anvil': 1, 'mesh': 'm.ply', 'occluders': [ {'name': 'press', 'shape': {'plane': "
+                      "{'normal': [0,0,-1]}}, 'influence': {'kind': 'hard'}} ], 'edits': [ {'kind': "
+                      "'translate', 'occluders': [ {'name': 'press', 'motion': [ {'at': 0, 'translate': "
+                      "[0,0,0.2]}, {'at': 1, 'translate': [0,0," +
+                      text(height) + "]} ]} ], 'refine': {'criterion': 'space', 'tolerance': 0.001}} ] }"));
+    };
+    const ForgeResult flat = pressed_down_to(0.02);
+    for (const Vec3& p : flat.positions) {
+        REQUIRE(std::abs(p.z - 0.02) <= 1e-6);
+    }
+    CHECK(!flat.refined);
+    CHECK(flat.report.edits[0].refine->max_error <= 0.001);
+    CHECK(pressed_down_to(0.05).refined);
+}
+
 TEST_CASE("In space, an edit that moves less than the tolerance adds no vertex") {
     const Mesh mesh = make_sample("plane", 121);
     const ForgeResult result = forged_on_cpu(
