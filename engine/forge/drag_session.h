@@ -51,6 +51,9 @@ class DragSession {
     /// The vertices with a normal: the region, then those around it.
     const std::vector<uint32_t>& normal_vertices() const { return now_.normal_vertices; }
     std::string device_name() const { return backend_->device_name(); }
+    /// What the region is on now, for drawing; another one after a change of the region or a device's
+    /// failure.
+    std::shared_ptr<const DeformSession> session() const { return now_.session; }
 
     // Read back; waits for the last update.
 
@@ -69,7 +72,7 @@ class DragSession {
         std::shared_ptr<DeformInput> input;
         std::vector<OccluderUse> uses;
         EditMotion motion;
-        std::unique_ptr<DeformSession> session;
+        std::shared_ptr<DeformSession> session;
     };
 
     /// Radii of the edit where the distances measured so far are its own and reach that far.

@@ -68,8 +68,6 @@ vk::raii::Device make_device(const DeviceState& state, const std::vector<std::st
 void finish(DeviceState& state) {
     state.limits = state.physical.getProperties().limits;
     state.memory = state.physical.getMemoryProperties();
-    state.pool = state.device.createCommandPool({.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
-                                                 .queueFamilyIndex = state.queue_family});
 }
 
 std::vector<DeviceInfo> describe_all(const vk::raii::PhysicalDevices& physical) {

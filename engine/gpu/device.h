@@ -52,7 +52,8 @@ struct DeviceOptions {
     std::vector<std::string> device_extensions = {};   ///< likewise, e.g. VK_KHR_swapchain
 };
 
-/// Owned or borrowed. Used by one thread at a time. Objects made from it must go before it.
+/// Owned or borrowed. Several threads may work with it, each with objects of its own made from it, which must
+/// go before it.
 class Device {
   public:
     /// @throws DeviceError: no loader, driver or device, a feature or extension missing (named), or the

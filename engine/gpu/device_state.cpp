@@ -6,7 +6,6 @@
 namespace anvil {
 
 DeviceState::~DeviceState() {
-    pool.clear();
     queue.clear();
     if (borrowed) {
         device.release();
@@ -50,8 +49,10 @@ std::string describe_failure(const char* doing, const vk::SystemError& error) {
 
 Commands::Commands(DeviceState& device) : device_(device) {
     guarded("making a command buffer", [&] {
+        pool_ = device.device.createCommandPool({.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
+                                                 .queueFamilyIndex = device.queue_family});
         const vk::CommandBufferAllocateInfo info{
-            .commandPool = *device.pool, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1};
+            .commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1};
         buffer_ = std::move(device.device.allocateCommandBuffers(info).front());
         fence_ = device.device.createFence({});
     });
@@ -83,6 +84,7 @@ void Commands::submit() {
         buffer_.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &to_host});
         buffer_.end();
         const vk::CommandBufferSubmitInfo commands{.commandBuffer = *buffer_};
+        const std::lock_guard lock(device_.queue_mutex);
         device_.queue.submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &commands},
                               *fence_);
         pending_ = true;

@@ -30,8 +30,8 @@ struct DeviceState {
     vk::raii::PhysicalDevice physical{nullptr};
     vk::raii::Device device{nullptr};
     vk::raii::Queue queue{nullptr};
+    std::mutex queue_mutex; ///< held while the queue is used: several threads may work with one device
     uint32_t queue_family = 0;
-    vk::raii::CommandPool pool{nullptr};
     DeviceInfo info;
     vk::PhysicalDeviceLimits limits;
     vk::PhysicalDeviceMemoryProperties memory;
@@ -72,7 +72,8 @@ DeviceInfo describe_device(const vk::raii::PhysicalDevice& physical, uint32_t in
 /// A family with compute, with graphics as well if there is one; none: no_index.
 uint32_t pick_queue_family(const vk::raii::PhysicalDevice& physical);
 
-/// A command buffer that is recorded again and again, with its fence.
+/// A command buffer that is recorded again and again, with its pool and fence: each used by one thread at a
+/// time, beside others.
 class Commands {
   public:
     explicit Commands(DeviceState& device);
@@ -89,6 +90,7 @@ class Commands {
 
   private:
     DeviceState& device_;
+    vk::raii::CommandPool pool_{nullptr};
     vk::raii::CommandBuffer buffer_{nullptr};
     vk::raii::Fence fence_{nullptr};
     bool pending_ = false;

@@ -229,6 +229,9 @@ void GpuSession::update(const DeformMotion& motion) {
     kernel::f32::KernelParams params = narrowed(kernel_params(*input_, motion));
     const ComputeKernel& kernel = pipeline_->kernel(variant_of(*input_, motion));
     guarded("recording the deformation", [&] {
+        if (normals_) {
+            full_barrier(commands); // what draws the last update's surface on this queue has read it
+        }
         for (const Chunk& chunk : chunks_) {
             params.point_count = chunk.count;
             params.field_stride = chunk.count;
@@ -274,6 +277,19 @@ std::vector<Vec3> GpuSession::download_normals() {
     check_ready();
     commands_.wait();
     return normals_ ? normals_->download() : std::vector<Vec3>{};
+}
+
+std::optional<DeviceSurface> GpuSession::surface(const Device& device) const {
+    if (!normals_ || &device.state() != &pipeline_->device()) {
+        return std::nullopt;
+    }
+    return DeviceSurface{ends_.handle(), normals_->normals(), static_cast<uint32_t>(input_->points.size()),
+                         static_cast<uint32_t>(input_->fans.normal_count())};
+}
+
+std::optional<DeviceSurface> device_surface(const DeformSession& session, const Device& device) {
+    const auto* on_gpu = dynamic_cast<const GpuSession*>(&session);
+    return on_gpu != nullptr ? on_gpu->surface(device) : std::nullopt;
 }
 
 void GpuSession::check_ready() const {

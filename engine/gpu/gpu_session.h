@@ -3,6 +3,7 @@
 
 #include "engine/deform/backend.h"
 #include "engine/gpu/deform_pipeline.h"
+#include "engine/gpu/device_surface.h"
 #include "engine/gpu/normals_pass.h"
 
 #include <optional>
@@ -23,6 +24,8 @@ class GpuSession final : public DeformSession {
     std::vector<Vec3> download_normals() override;
     void refresh_shapes() override;
     void refresh_occluders() override;
+
+    std::optional<DeviceSurface> surface(const Device& device) const;
 
   private:
     /// Consecutive points with buffers of their own, so that no binding exceeds a device's limit.

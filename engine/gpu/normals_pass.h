@@ -23,6 +23,8 @@ class NormalsPass {
     /// After a barrier that `ends` waits for.
     void record(const vk::raii::CommandBuffer& commands) const;
 
+    vk::Buffer normals() const { return normals_.handle(); }
+
     /// The caller has waited for the recorded work.
     std::vector<Vec3> download() const;
 

@@ -1,5 +1,8 @@
 #include "engine/forge/drag_session.h"
 
+#include "engine/core/error.h"
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/device_surface.h"
 #include "engine/gpu/gpu_backend.h"
 #include "tests/gpu/gpu_test.h"
 #include "tests/support/forging.h"
@@ -78,4 +81,45 @@ TEST_CASE("a drag on the device shows what the CPU shows, normals too, whole and
             CHECK(largest_difference(shown[i].normals, expected[i].normals) <= 1e-3);
         }
     }
+}
+
+namespace {
+
+std::vector<Vec3> copied(DeviceState& device, vk::Buffer from, uint32_t count) {
+    std::vector<glm::vec3> values(count);
+    const Buffer to(device, values.size() * sizeof(glm::vec3), {}, MemoryUse::download);
+    run_commands(device, [&](const vk::raii::CommandBuffer& commands) {
+        full_barrier(commands);
+        commands.copyBuffer(from, to.handle(), vk::BufferCopy{0, 0, to.size()});
+    });
+    to.read(0, std::as_writable_bytes(std::span(values)));
+    return {values.begin(), values.end()};
+}
+
+} // namespace
+
+TEST_CASE("what a drag leaves on the device is what it reads back") {
+    const CheckedDevice device;
+    const CheckedDevice another;
+    const Recipe recipe = recipe_of(two_handles);
+    const Mesh mesh = make_sample("icosphere", 2562);
+    const RefinementHistory history(mesh);
+    KeptSolvers solvers;
+    Log log;
+    Progress progress;
+    DragScene scene(mesh, mesh.positions, history, solvers);
+    const EditOccluders occluders(recipe, log, progress, nullptr);
+    const auto backend = make_gpu_backend(device.shared());
+    DragSession session(scene, occluders, *backend, recipe.edits[0], log);
+    const auto surface = device_surface(*session.session(), *device);
+    REQUIRE(surface);
+    CHECK(surface->point_count == session.region().vertices.size());
+    CHECK(surface->normal_count == session.normal_vertices().size());
+    CHECK(copied(device->state(), surface->normals, surface->normal_count) == session.normals());
+    const std::vector<Vec3> ends = copied(device->state(), surface->ends, surface->point_count);
+    const std::vector<Vec3> positions = session.positions();
+    for (size_t i = 0; i < ends.size(); ++i) {
+        CHECK(glm::length(scene.frame().origin + ends[i] - positions[i]) <= 1e-6);
+    }
+    CHECK_FALSE(device_surface(*session.session(), *another));
 }

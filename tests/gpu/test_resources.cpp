@@ -6,6 +6,7 @@
 #include "tests/gpu/gpu_test.h"
 
 #include <numeric>
+#include <thread>
 
 using namespace anvil;
 
@@ -97,4 +98,27 @@ TEST_CASE("the validation layer is heard: a removed barrier is reported") {
     };
     CHECK(copy_twice(true).empty());
     CHECK_FALSE(copy_twice(false).empty());
+}
+
+TEST_CASE("two threads copy to and from one device beside each other") {
+    const CheckedDevice device; // the layer sees what two threads share without a lock
+    const auto copies = [&](uint32_t first, bool& right) {
+        std::vector<uint32_t> values(30011);
+        std::iota(values.begin(), values.end(), first);
+        right = true;
+        for (int round = 0; round < 20; ++round) {
+            const Buffer buffer =
+                storage_buffer(device->state(), std::span<const uint32_t>(values), MemoryUse::device);
+            std::vector<uint32_t> found(values.size());
+            buffer.read(0, std::as_writable_bytes(std::span(found)));
+            right = right && found == values;
+        }
+    };
+    bool right_here = false;
+    bool right_there = false;
+    std::thread other([&] { copies(1000000, right_there); });
+    copies(7, right_here);
+    other.join();
+    CHECK(right_here);
+    CHECK(right_there);
 }
