@@ -26,7 +26,7 @@ struct Vertex {
     uint segment; // where on the path it is: the segment from this sample,
     real tau;     // and the share of it
     uint nearest; // past moving occluders: the nearest one at the start,
-    real way;     // and the relative motion of the two so far, 1e30 once another was nearer
+    real way;     // and the relative motion of the two so far, grown with it; 1e30 once another was nearer
     uint steps;
     uint samples;
     uint flags;
@@ -135,15 +135,23 @@ Contact lifted(INOUT(Vertex) vertex) {
     return contact;
 }
 
-// A vertex still inside is pushed outward by at most its own step, and starts to be held once it is outside.
+// A vertex still inside is pushed outward by at most its own step, and starts to be held once that is enough:
+// by how far the last push was cut short it is inside, so that a little more and a little less end alike.
 Contact emerge(INOUT(Vertex) vertex, real3 base, real3 offset, real r) {
+    vertex.offset = offset;
     Contact contact = contact_at(base + offset, vertex);
-    real push = contact.distance < 0.0 ? min(-contact.distance, r) : real(0.0);
-    vertex.offset = offset + push * contact.normal;
-    if (push > 0.0) {
+    real left = r;
+    for (uint i = 0u; i < NEWTON_LIMIT && contact.distance < 0.0 && left > 0.0; ++i) {
+        real push = min(-contact.distance, left);
+        left -= push;
+        vertex.offset += push * contact.normal;
         contact = contact_at(base + vertex.offset, vertex);
+        if (contact.distance >= -NEWTON_TOLERANCE * occluder_at(contact.occluder).step) {
+            break; // fields and rounding may never show 0
+        }
     }
-    if (contact.distance < -NEWTON_TOLERANCE * occluder_at(contact.occluder).step) {
+    bool short_of = contact.distance < -NEWTON_TOLERANCE * occluder_at(contact.occluder).step;
+    if (short_of || left <= 0.0) {
         return contact;
     }
     vertex.inside = false;
@@ -167,7 +175,8 @@ Contact contact_step(INOUT(Vertex) vertex, Contact here, real3 base, real3 move,
     real3 u = r > 0.0 ? relative / r : real3(0.0);
     real3 offset = vertex.offset;
     vertex.tau = next;
-    vertex.way = here.occluder == vertex.nearest ? vertex.way + r : real(1e30);
+    real growth = grown(here.occluder, vertex.segment, next - from);
+    vertex.way = here.occluder == vertex.nearest ? growth * vertex.way + r : real(1e30);
     if (vertex.inside) {
         return emerge(vertex, base, offset, r);
     }

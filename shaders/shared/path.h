@@ -106,6 +106,11 @@ real growth_by(Pose pose, real tau) {
     return pose.growth == 0.0 ? real(1.0) : exp(tau * pose.growth);
 }
 
+// What occluder k grows by over a share of a segment.
+real grown(uint k, uint segment, real share) {
+    return params.moving == 0u ? real(1.0) : growth_by(pose_at(segment, k), share);
+}
+
 // Occluder `k` at p, where it is at tau of a segment of the path.
 Probe posed_probe(uint k, real3 p, uint segment, real tau) {
     if (params.moving == 0u) {

@@ -296,6 +296,28 @@ TEST_CASE("what starts inside is moved out no faster than it moves itself") {
     }
 }
 
+TEST_CASE(
+    "what starts inside is pushed by its own step to the last hair, and held only once that is enough") {
+    Scene scene;
+    scene.occluders = {{PlaneShape{{0, 1, 0}, 0}, {}, {}, hard}};
+    scene.fixed_steps = true;
+    scene.steps = 1;
+    const double depth = 0.05;
+    std::vector<double> missing;
+    for (double hair = 1e-9; hair < 1e-3; hair *= 3) {
+        for (const double more : {-hair, hair}) {
+            missing.push_back(std::max(0.0, -more));
+            scene.points.push_back({0, -depth, 0});
+            scene.displacements.push_back({depth + more, 0, 0});
+        }
+    }
+    const SceneResult result = run_scene(scene, *make_cpu_backend(), false);
+    for (size_t i = 0; i < missing.size(); ++i) {
+        INFO(missing[i]);
+        CHECK(result.ends[i].y == Approx(-missing[i]).margin(1e-15));
+    }
+}
+
 TEST_CASE("what starts inside a small occluder is moved out gradually, near a wide margin of another too") {
     Scene scene; // the plane's margin is 20 / 128: all points lie in its band, some inside the ball
     scene.mesh_diagonal = 20;
