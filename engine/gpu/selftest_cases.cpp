@@ -286,6 +286,15 @@ void add_hammer_cases(std::vector<SelftestCase>& cases) {
     }
     cases.push_back(finished(std::move(turned)));
 
+    SelftestCase baked = scene("adaptively baked hammer", 390, 2);
+    Progress progress;
+    const auto torus = formula_distance({leaf(k::SHAPE_TORUS, {0.35, 0.14, 0})});
+    const OccluderModel model = sampled_model(torus, {FieldKind::adaptive, 48}, progress);
+    add_occluder(baked.input.occluders, model, "hammer", {}, {InfluenceKind::soft, 0.9, {}, {}, 0},
+                 {Vec3(0), diagonal, 1});
+    add_hammer(baked, {0.3, 0.2, -0.2}, 0.6, 1.2);
+    cases.push_back(finished(std::move(baked)));
+
     SelftestCase fixed = scene("hammer by equal steps", 380, 1);
     add_occluder(fixed, {leaf(k::SHAPE_TORUS, {0.4, 0.15, 0})}, 381, k::INFLUENCE_HARD);
     add_hammer(fixed, {-0.3, 0.3, 0.2}, 0.5, 0.8);
