@@ -1,4 +1,4 @@
-// One edit's displacement of one point an invocation; the work itself is shared/contact.h. What an edit does not
+// One edit's displacement of one point an invocation; the work itself is shared/walk.h. What an edit does not
 // need is compiled out: drivers inline everything, and lavapipe runs both sides of every branch. With FEW_OCCLUDERS
 // the variant knows their number and kinds, so that loops unroll and occluders stay in registers.
 
@@ -129,6 +129,8 @@ float handle_weight(uint j, float t) {
 
 #include "shared/path.h"
 #include "shared/contact.h"
+#include "shared/looks.h"
+#include "shared/walk.h"
 
 /// What the variant knows, as constants.
 void prepare() {

@@ -4,7 +4,9 @@
 #define INOUT(type) type&
 #define PRECISE
 
-/// The functions of shaders/shared/{path,contact}.h over arrays that outlive it.
+#include "shaders/shared/looks.h"
+
+/// The functions of shaders/shared/{path,contact,walk}.h over arrays that outlive it.
 struct DeformKernel : OccluderKernel {
     KernelParams params{};
     const real3* points = nullptr;
@@ -22,6 +24,8 @@ struct DeformKernel : OccluderKernel {
 #include "shaders/shared/path.h"
 
 #include "shaders/shared/contact.h"
+
+#include "shaders/shared/walk.h"
     // NOLINTEND
 };
 

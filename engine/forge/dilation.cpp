@@ -62,8 +62,7 @@ uint32_t steps_of(const DeformMotion& motion) {
 
 struct State {
     k::DeformKernel::Vertex vertex;
-    k::DeformKernel::Contact here;
-    Vec3 at; ///< of its undeflected path
+    k::DeformKernel::Walk walk;
 };
 
 /// Normals (outward) and areas of the region's vertices.
@@ -103,7 +102,7 @@ class Dilator {
         for (uint32_t s = 0; s < motion_.times.size(); ++s) {
             const std::vector<double> pushed = advance(s);
             if (task_.closed) {
-                result.free_volume = volume([](const State& state) { return state.at; });
+                result.free_volume = volume([](const State& state) { return state.walk.at; });
             }
             result.height += swell(s, pushed, result.free_volume);
         }
@@ -121,10 +120,11 @@ class Dilator {
         each([&](k::DeformKernel& kernel, size_t i) {
             State& state = states_[i];
             state.vertex = kernel.vertex_at_start(static_cast<uint32_t>(i));
-            state.at = Vec3(0);
-            state.here = state.vertex.inside ? kernel.contact_at(state.vertex.start, state.vertex)
-                                             : kernel.lifted(state.vertex);
-            state.vertex.nearest = state.here.occluder;
+            state.walk = kernel.walk_from(Vec3(0), k::LOOK_START);
+            while (state.walk.look != k::LOOK_AHEAD) {
+                kernel.look(state.vertex, state.walk);
+            }
+            state.vertex.nearest = state.walk.here.occluder;
         });
     }
 
@@ -153,12 +153,13 @@ class Dilator {
                 (kernel.params.moving == 0 && !(path.reach > 0))) {
                 return;
             }
-            const Vec3 before = vertex.offset - vertex.lift * state.here.normal;
-            moved[i] = kernel.pace(path, state.here, vertex) > 0 ? 1 : 0;
-            state.at = kernel.follow(vertex, path, state.here);
-            const Vec3 after = vertex.offset - vertex.lift * state.here.normal;
+            const Vec3 before = vertex.offset - vertex.lift * state.walk.here.normal;
+            moved[i] = kernel.pace(path, state.walk.here, vertex) > 0 ? 1 : 0;
+            state.walk.look = k::LOOK_AHEAD;
+            kernel.proceed(vertex, state.walk, path, k::LOWERS_NEVER);
+            const Vec3 after = vertex.offset - vertex.lift * state.walk.here.normal;
             const bool touches = vertex.lift > 0 && !vertex.inside;
-            pushed[i] = touches ? std::max(0.0, glm::dot(after - before, state.here.normal)) : 0;
+            pushed[i] = touches ? std::max(0.0, glm::dot(after - before, state.walk.here.normal)) : 0;
         });
         moved_.assign(moved.begin(), moved.end());
         return pushed;
@@ -166,9 +167,12 @@ class Dilator {
 
     Vec3 displacement(const State& state) const {
         k::DeformKernel kernel = kernel_.kernel();
-        k::DeformKernel::Vertex vertex = state.vertex;
-        kernel.set_down(vertex, vertex.start + state.at, state.here);
-        return state.at + vertex.offset;
+        State lowered = state;
+        kernel.begin_lowering(lowered.vertex, lowered.walk);
+        while (lowered.walk.look != k::LOOK_NONE) {
+            kernel.look(lowered.vertex, lowered.walk);
+        }
+        return state.walk.at + lowered.vertex.offset;
     }
 
     /// The whole mesh, the region's vertices displaced.
@@ -227,7 +231,7 @@ class Dilator {
             if (i == no_index || !moved_[i] || states_[i].vertex.inside) {
                 continue;
             }
-            const double delta = states_[i].here.distance - states_[i].vertex.lift;
+            const double delta = states_[i].walk.here.distance - states_[i].vertex.lift;
             result[i] = wendland(delta / task_.width) * (1 - smoothstep(field.distances[f] / task_.width));
         }
         return result;
@@ -246,8 +250,8 @@ class Dilator {
         double deepest = 0;
         for (size_t i = 0; i < g.size(); ++i) {
             unit += g[i] * now.areas[i];
-            removed +=
-                now.areas[i] * pushed[i] * std::max(0.0, -glm::dot(states_[i].here.normal, now.normals[i]));
+            removed += now.areas[i] * pushed[i] *
+                       std::max(0.0, -glm::dot(states_[i].walk.here.normal, now.normals[i]));
             deepest = std::max(deepest, pushed[i]);
         }
         const double most = fold_limit * task_.width;
@@ -302,8 +306,11 @@ class Dilator {
             const Vec3 by = g[i] * rho * now.normals[i];
             state.vertex.segment = 0;
             state.vertex.tau = 0;
-            const k::DeformKernel::Path path{state.at, state.at + by, Vec3(0), Vec3(0), glm::length(by)};
-            kernel.follow(state.vertex, path, state.here);
+            const Vec3 at = state.walk.at;
+            const k::DeformKernel::Path path{at, at + by, Vec3(0), Vec3(0), glm::length(by)};
+            state.walk.look = k::LOOK_AHEAD;
+            kernel.proceed(state.vertex, state.walk, path, k::LOWERS_NEVER);
+            state.walk.at = at;
             state.vertex.offset += by; // what was a path is a correction from now on
             state.vertex.segment = s;
             state.vertex.tau = 1;
