@@ -72,37 +72,48 @@ double blend_reach(double radius, double width, size_t anchors) {
     return radius + (width > 0 ? width * spread : 0);
 }
 
-DistanceField anchor_distances(std::span<const DistanceSources> anchors, double radius, double width,
-                               const FieldFinder& find) {
+AnchorFields fields_of_anchors(std::span<const DistanceSources> anchors, double radius, double width) {
     if (!(width >= 0) || !std::isfinite(width)) {
         throw InputError("anchors: the blend width is " + number_text(width) + "; give a length >= 0");
     }
     // The finder says what is wrong with a radius.
     if (!(radius >= 0) || width == 0 || anchors.size() < 2) {
-        return find(all_of(anchors), radius);
+        return {{all_of(anchors)}, radius};
     }
-    const double reach = blend_reach(radius, width, anchors.size());
-    std::vector<DistanceField> fields(anchors.size());
-    parallel_for(anchors.size(), 1, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-            fields[i] = find(anchors[i], reach);
-        }
-    });
+    return {{anchors.begin(), anchors.end()}, blend_reach(radius, width, anchors.size())};
+}
+
+DistanceField blended(std::vector<DistanceField> fields, double radius, double width) {
+    if (fields.size() == 1) {
+        return std::move(fields[0]);
+    }
     const FieldTable table = table_of(fields);
-    DistanceField blended;
+    DistanceField blend;
     const bool exact = std::all_of(fields.begin(), fields.end(), [](const DistanceField& field) {
         return field.method == DistanceMethod::exact;
     });
-    blended.method = exact ? DistanceMethod::exact : DistanceMethod::approximate;
+    blend.method = exact ? DistanceMethod::exact : DistanceMethod::approximate;
     for (size_t row = 0; row < table.vertices.size(); ++row) {
         const double distance =
             smooth_minimum({table.distances.data() + row * fields.size(), fields.size()}, width);
         if (distance <= radius) {
-            blended.vertices.push_back(table.vertices[row]);
-            blended.distances.push_back(distance);
+            blend.vertices.push_back(table.vertices[row]);
+            blend.distances.push_back(distance);
         }
     }
-    return blended;
+    return blend;
+}
+
+DistanceField anchor_distances(std::span<const DistanceSources> anchors, double radius, double width,
+                               const FieldFinder& find) {
+    const AnchorFields single = fields_of_anchors(anchors, radius, width);
+    std::vector<DistanceField> fields(single.sources.size());
+    parallel_for(fields.size(), 1, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            fields[i] = find(single.sources[i], single.reach);
+        }
+    });
+    return blended(std::move(fields), radius, width);
 }
 
 } // namespace anvil

@@ -18,6 +18,19 @@ double smooth_minimum(std::span<const double> distances, double width);
 /// How far single fields must reach for their smooth minimum to be right up to `radius` (to 2e-9 widths).
 double blend_reach(double radius, double width, size_t anchors);
 
+/// The single fields that distances to anchors are made of, and how far each must reach.
+struct AnchorFields {
+    std::vector<DistanceSources> sources;
+    double reach = 0;
+};
+
+/// All anchors together where `width` is 0, else one field each. @throws InputError if the width is negative
+/// or not finite.
+AnchorFields fields_of_anchors(std::span<const DistanceSources> anchors, double radius, double width);
+
+/// The smooth minimum of fields that reach so far, up to `radius`; a single one as it is.
+DistanceField blended(std::vector<DistanceField> fields, double radius, double width);
+
 /// Finds the distances of vertices from sources up to a radius, with any metric. Called from several threads
 /// at once.
 using FieldFinder = std::function<DistanceField(const DistanceSources& sources, double radius)>;

@@ -87,7 +87,8 @@ class GeodesicSolver {
     /// Whether both lie in one triangle or on its rim.
     bool share_triangle(const SurfacePoint& a, const SurfacePoint& b) const;
 
-    /// A march to be continued, without sources yet. `automatic` is approximate here.
+    /// A march to be continued, without sources yet. It chooses its method as solve() does, anew whenever it
+    /// has gone on.
     GeodesicMarch march(DistanceMethod method) const;
 
   private:
@@ -107,18 +108,19 @@ class GeodesicMarch {
 
     /// @throws InputError as GeodesicSolver::solve does.
     void add(const DistanceSources& sources);
-    /// A smaller radius than before changes nothing. @throws InputError if it is NaN or negative, or if the
-    /// exact method gives up.
+    /// A smaller radius than before changes nothing. @throws InputError if it is NaN or negative.
     void grow(double radius);
 
     /// All vertices within the largest radius so far.
     DistanceField field() const;
 
+    /// What has been done so far: vertices marched from and windows made.
+    size_t steps() const;
+
   private:
     friend class GeodesicSolver;
     struct Work;
     GeodesicMarch(std::shared_ptr<GeodesicSolver::State> state, DistanceMethod method);
-    void march_on();
     std::unique_ptr<Work> work_;
 };
 

@@ -254,6 +254,7 @@ void VertexFronts::clear() {
     }
     reached_.clear();
     queue_.clear();
+    marched_ = 0;
 }
 
 void VertexFronts::add(std::span<const FrontSeed> seeds) {
@@ -283,6 +284,7 @@ void VertexFronts::grow(double radius) {
         front.stamp |= (front.stamp & provisional_bit) != 0 ? hasty_bit : 0;
         front.stamp += march_step;
         front.stamp |= settled_bit;
+        ++marched_;
         march_from(next.vertex);
         if (was_hasty) {
             repair_around(next.vertex);

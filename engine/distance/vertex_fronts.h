@@ -38,6 +38,8 @@ class VertexFronts {
     /// Vertices that have a value, in order of arrival; values beyond the radius need not be final.
     std::span<const uint32_t> reached() const { return reached_; }
     float distance(uint32_t vertex) const { return fronts_[vertex].distance; }
+    /// How often a vertex has been marched from.
+    size_t marched() const { return marched_; }
 
   private:
     struct Waiting {
@@ -64,6 +66,7 @@ class VertexFronts {
     BucketQueue<Waiting> queue_;
     std::vector<uint32_t> reached_;
     uint32_t run_stamp_ = 0;
+    size_t marched_ = 0;
     float least_ = -1; ///< values below this come too late: the front has passed
     float slack_ = 0;
 };

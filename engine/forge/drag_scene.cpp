@@ -9,7 +9,7 @@ DragScene::DragScene(const Mesh& mesh, std::span<const Vec3> positions, const Re
       frame_(local_frame(mesh)) {}
 
 void DragScene::warm() {
-    surface_.prepare_distances();
+    surface_.solver(0);
 }
 
 } // namespace anvil

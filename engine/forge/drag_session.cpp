@@ -35,7 +35,7 @@ bool same_shapes(const Edit& a, const Edit& b) {
 
 DragSession::DragSession(DragScene& scene, const EditOccluders& occluders, Backend& backend, const Edit& edit,
                          Log& log)
-    : scene_(scene), backend_(&backend), log_(log) {
+    : scene_(scene), marches_(scene.surface()), backend_(&backend), log_(log) {
     update(edit, occluders);
 }
 
@@ -77,8 +77,10 @@ std::optional<std::vector<double>> DragSession::radii_within_measured(const Edit
 void DragSession::update(const Edit& edit, const EditOccluders& occluders) {
     const std::optional<std::vector<double>> radii = radii_within_measured(edit);
     if (!radii) {
-        auto measured =
-            std::make_shared<const EditDistances>(measure_distances(edit, place, scene_.surface()));
+        auto measured = std::make_shared<const EditDistances>(
+            measure_distances(edit, place, scene_.surface(), [this](std::span<const DistanceQuery> queries) {
+                return marches_.distances(queries);
+            }));
         ++work_.distances;
         now_ = opened(edit, occluders, measured, measured->radii);
     } else if (*radii != now_.region.radii) {

@@ -5,6 +5,7 @@
 #include "engine/forge/drag_scene.h"
 #include "engine/forge/edit_motion.h"
 #include "engine/forge/edit_occluders.h"
+#include "engine/forge/kept_marches.h"
 #include "engine/forge/region_fans.h"
 
 #include <memory>
@@ -16,7 +17,7 @@ namespace anvil {
 
 /// How often each stage has been done: what an update did, and what it spared.
 struct DragWork {
-    size_t distances = 0; ///< measured along the surface
+    size_t distances = 0; ///< asked for along the surface; MarchWork says what of that was new
     size_t regions = 0;   ///< cut out and handed to the back end
     size_t shapes = 0;    ///< handed over alone
     size_t occluders = 0; ///< handed over alone
@@ -36,7 +37,8 @@ class DragSession {
 
     /// Submits the edit as it is now; what of it differs from before decides what is done again: targets,
     /// axis, steps and amount cost a step; shapes and `occluders` are handed over anew; a radius not larger
-    /// than any before cuts the region anew; all else measures distances anew.
+    /// than any before cuts the region anew; a larger one marches on over the surface, as do further handles
+    /// and anchors beside those that stay (see KeptMarches); all else measures distances anew.
     /// @throws InputError if a target is out of reach or the edit is wrong; the edit before stands then.
     void update(const Edit& edit, const EditOccluders& occluders);
 
@@ -48,6 +50,7 @@ class DragSession {
     const EditMotion& motion() const { return now_.motion; }
     const DeformInput& input() const { return *now_.input; }
     const DragWork& work() const { return work_; }
+    const MarchWork& march_work() const { return marches_.work(); }
     /// The vertices with a normal: the region, then those around it.
     const std::vector<uint32_t>& normal_vertices() const { return now_.normal_vertices; }
     std::string device_name() const { return backend_->device_name(); }
@@ -86,6 +89,7 @@ class DragSession {
     auto on_device(const Work& work);
 
     DragScene& scene_;
+    KeptMarches marches_;
     Backend* backend_;
     std::unique_ptr<Backend> fallback_; ///< once the device has failed
     Log& log_;

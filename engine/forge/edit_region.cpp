@@ -83,10 +83,10 @@ std::string handle_place(const std::string& place, size_t j) {
 
 /// Without handles: from the anchors, if there are any.
 void measure_from_anchors(const Edit& edit, const std::string& place, SurfaceState& surface,
-                          EditDistances& measured) {
+                          const FieldsFinder& find, EditDistances& measured) {
     if (!edit.anchors.empty()) {
         const DistanceQuery query = hammer_query(edit, place, surface);
-        measured.fields = surface.distances({&query, 1});
+        measured.fields = find({&query, 1});
         measured.radii.push_back(radius_of(query, measured.fields[0].distances, place));
     }
 }
@@ -176,12 +176,19 @@ EditDistances handles_of(const Edit& edit, const std::string& place, SurfaceStat
 }
 
 EditDistances measure_distances(const Edit& edit, const std::string& place, SurfaceState& surface) {
+    return measure_distances(edit, place, surface, [&](std::span<const DistanceQuery> queries) {
+        return surface.distances(queries);
+    });
+}
+
+EditDistances measure_distances(const Edit& edit, const std::string& place, SurfaceState& surface,
+                                const FieldsFinder& find) {
     std::vector<DistanceQuery> queries;
     EditDistances measured = handles_of(edit, place, surface, queries);
     if (edit.handles.empty()) {
-        measure_from_anchors(edit, place, surface, measured);
+        measure_from_anchors(edit, place, surface, find, measured);
     } else {
-        measured.fields = surface.distances(queries);
+        measured.fields = find(queries);
     }
     for (size_t j = 0; j < queries.size(); ++j) {
         const DistanceField& field = measured.fields[j];

@@ -6,6 +6,7 @@
 #include "engine/forge/surface_state.h"
 #include "engine/mesh/vertex_numbers.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,13 @@ struct EditDistances {
 
 /// @throws InputError with `place` ("edits[2]") in front: bad addresses, a radius that cannot be defaulted.
 EditDistances measure_distances(const Edit& edit, const std::string& place, SurfaceState& surface);
+
+/// One field per query.
+using FieldsFinder = std::function<std::vector<DistanceField>(std::span<const DistanceQuery>)>;
+
+/// The same with distances that `find` finds; they may reach farther than asked for.
+EditDistances measure_distances(const Edit& edit, const std::string& place, SurfaceState& surface,
+                                const FieldsFinder& find);
 
 /// The region by the distances, for `radii` not larger than the measured ones. `numbers` of the mesh's
 /// vertices, clear before and after. O(region), or O(mesh) where the whole mesh takes part.

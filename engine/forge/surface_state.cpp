@@ -80,7 +80,7 @@ std::vector<uint32_t> SurfaceState::triangles_of(const WholeFaceAddress& face,
 
 std::vector<SurfacePoint> SurfaceState::line_through(std::span<const SurfacePoint> points,
                                                      uint32_t smooth_rounds, const std::string& place) {
-    const GeodesicSolver& surface = solvers_.solver(mesh_, positions_, smooth_rounds);
+    const GeodesicSolver& surface = solver(smooth_rounds);
     std::vector<SurfacePoint> line(points.begin(), points.begin() + 1);
     for (size_t i = 1; i < points.size(); ++i) {
         const auto joined = surface.share_triangle(points[i - 1], points[i])
@@ -129,9 +129,7 @@ DistanceField SurfaceState::straight_distances(const DistanceSources& sources, d
 std::vector<DistanceField> SurfaceState::distances(std::span<const DistanceQuery> queries) {
     std::vector<const GeodesicSolver*> solvers;
     for (const DistanceQuery& query : queries) {
-        solvers.push_back(query.metric == Metric::geodesic
-                              ? &solvers_.solver(mesh_, positions_, query.smooth_rounds)
-                              : nullptr);
+        solvers.push_back(query.metric == Metric::geodesic ? &solver(query.smooth_rounds) : nullptr);
     }
     std::vector<DistanceField> fields(queries.size());
     parallel_for(queries.size(), 1, [&](size_t begin, size_t end) {

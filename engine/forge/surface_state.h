@@ -55,8 +55,8 @@ class SurfaceState {
     /// One field per query, all at once on all cores.
     std::vector<DistanceField> distances(std::span<const DistanceQuery> queries);
 
-    /// Builds what geodesic distances need, O(mesh), if that has not been done yet.
-    void prepare_distances() { solvers_.solver(mesh_, positions_, 0); }
+    /// Of geodesic distances on a copy smoothed by `rounds`; built, O(mesh), if that has not been done yet.
+    const GeodesicSolver& solver(uint32_t rounds) { return solvers_.solver(mesh_, positions_, rounds); }
 
     size_t vertex_count() const { return positions_.size(); }
     Vec3 position_of(const SurfacePoint& point) const;

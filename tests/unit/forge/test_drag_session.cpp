@@ -170,20 +170,81 @@ TEST_CASE("an update does again only what depends on what has changed") {
         CHECK(session.work().distances == 1);
         CHECK(session.work().regions == 3);
     }
-    SECTION("a larger radius, another handle and none at all measure anew") {
+    SECTION("a larger radius goes on from the distances that are there, and so do handles that stay") {
+        CHECK(session.march_work().begun == 2);
         edit.radius = 0.7;
         session.update(edit, bench.occluders);
         check_like_forge(session, bench);
-        CHECK(session.work().distances == 2);
+        CHECK(session.march_work().continued == 2);
         edit.handles.pop_back();
         session.update(edit, bench.occluders);
         check_like_forge(session, bench);
-        CHECK(session.work().distances == 3);
+        CHECK(session.march_work().continued == 3);
         edit.radius.reset();
         session.update(edit, bench.occluders);
         check_like_forge(session, bench);
-        CHECK(session.work().distances == 4);
+        CHECK(session.march_work().continued == 4);
+        CHECK(session.march_work().begun == 2);
+        edit.handles.push_back(bench.recipe.edits[0].handles[1]);
+        session.update(edit, bench.occluders);
+        check_like_forge(session, bench);
+        CHECK(session.march_work().continued == 5);
+        CHECK(session.march_work().begun == 3);
     }
+    SECTION("another method measures anew") {
+        edit.method = DistanceMethod::approximate;
+        edit.radius = 0.7;
+        session.update(edit, bench.occluders);
+        check_like_forge(session, bench);
+        CHECK(session.march_work().begun == 4);
+        CHECK(session.march_work().continued == 0);
+    }
+}
+
+TEST_CASE("a radius that grows step by step costs the marching of one") {
+    for (const DistanceMethod method : {DistanceMethod::approximate, DistanceMethod::exact}) {
+        Bench grown(recipe_of(pressed));
+        Edit& edit = grown.recipe.edits[0];
+        edit.method = method;
+        edit.radius = 0.3;
+        DragSession session = grown.session();
+        for (const double radius : {0.4, 0.5, 0.59}) {
+            edit.radius = radius;
+            session.update(edit, grown.occluders);
+        }
+        const size_t before = session.march_work().steps;
+        edit.radius = 0.6;
+        session.update(edit, grown.occluders);
+        check_like_forge(session, grown);
+
+        Bench anew(grown.recipe);
+        const DragSession whole = anew.session();
+        CHECK(session.march_work().steps <= whole.march_work().steps * 101 / 100);
+        CHECK(session.march_work().steps - before <= whole.march_work().steps / 8);
+        CHECK(whole.march_work().continued == 0);
+    }
+}
+
+TEST_CASE("an anchor that is added to others costs what it improves, blended or not") {
+    Bench bench(recipe_of(pressed));
+    Edit& edit = bench.recipe.edits[0];
+    edit.method = DistanceMethod::exact;
+    edit.handles.pop_back();
+    edit.anchors = {{0, {NearestAddress{Vec3(0.1, 1, 0)}}, std::nullopt}};
+    DragSession session = bench.session();
+    edit.anchors[0].at.emplace_back(NearestAddress{Vec3(-0.1, 1, 0.1)});
+    SECTION("where the nearest one counts its source joins the march") {
+        session.update(edit, bench.occluders);
+        CHECK(session.march_work().extended == 1);
+        CHECK(session.march_work().begun == 1);
+    }
+    SECTION("where they are blended it gets a field of its own") {
+        edit.anchors[0].smooth_width = 0.1;
+        session.update(edit, bench.occluders);
+        CHECK(session.march_work().continued == 1);
+        CHECK(session.march_work().begun == 2);
+    }
+    check_like_forge(session, bench);
 }
 
 TEST_CASE("a target out of reach is refused and the session stays as it was") {
