@@ -9,7 +9,6 @@
 #include "engine/mesh/mesh_format.h"
 #include "engine/mesh/mesh_reader.h"
 #include "engine/mesh/mesh_writer.h"
-#include "engine/mesh/normals.h"
 
 #include <algorithm>
 #include <chrono>
@@ -129,13 +128,13 @@ std::string parents_text(const ForgeResult& result) {
 
 /// The file's vertices as the edits leave them, with the file's faces: a blend shape; or as text, a line
 /// `dx dy dz` for each.
-void write_delta(const fs::path& path, Mesh mesh, const ForgeResult& result, OutputPrecision precision) {
+void write_delta(const fs::path& path, const Mesh& mesh, const ForgeResult& result,
+                 OutputPrecision precision) {
     const std::span<const Vec3> ends(result.positions.data(), mesh.vertex_count());
     if (!is_text(path)) {
         const std::vector<bool> moved(result.moved.begin(),
                                       result.moved.begin() + static_cast<std::ptrdiff_t>(ends.size()));
-        update_normals(mesh, ends, moved);
-        write_mesh(path, mesh, ends, precision);
+        write_edited_mesh(path, mesh, ends, moved, precision);
         return;
     }
     std::string text;
@@ -156,7 +155,7 @@ void run_forge(const ForgeArguments& arguments, CommandContext& context) {
     check_outputs(arguments, mesh_file, out);
 
     const auto load_start = Clock::now();
-    Mesh mesh = read_mesh(mesh_file, context.log);
+    const Mesh mesh = read_mesh(mesh_file, context.log);
     const double load_seconds = seconds_since(load_start);
     const ChosenBackend chosen = choose_backend(arguments.device, context.log);
     const std::optional<FileCache> cache = user_cache();
@@ -164,8 +163,7 @@ void run_forge(const ForgeArguments& arguments, CommandContext& context) {
         forge(mesh, recipe, *chosen.backend, context.log, context.progress, cache ? &*cache : nullptr);
     result.report.seconds.load = load_seconds;
 
-    Mesh refined = result.refined ? std::move(*result.refined) : Mesh();
-    Mesh& final_mesh = result.refined ? refined : mesh;
+    const Mesh& final_mesh = result.refined ? *result.refined : mesh;
     Picture picture;
     if (arguments.picture.wanted()) {
         const auto device = chosen.device ? chosen.device : std::make_shared<Device>();
@@ -179,8 +177,7 @@ void run_forge(const ForgeArguments& arguments, CommandContext& context) {
         write_delta(arguments.delta, mesh, result, precision);
     }
     if (!arguments.dry_run) {
-        update_normals(final_mesh, result.positions, result.moved);
-        write_mesh(out, final_mesh, result.positions, precision);
+        write_edited_mesh(out, final_mesh, result.positions, result.moved, precision);
     }
     if (arguments.picture.wanted()) {
         write_png(arguments.picture.path, picture);

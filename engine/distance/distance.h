@@ -65,6 +65,11 @@ class GeodesicSolver {
     SolverUpdate update(const Mesh& mesh, std::span<const Vec3> positions,
                         std::span<const uint32_t> roots = {});
 
+    /// A second solver that is up to date in the same way, while this one stays as it is. What it gives
+    /// depends on nothing but this one and the arguments. @throws InputError as update() does.
+    GeodesicSolver updated(const Mesh& mesh, std::span<const Vec3> positions,
+                           std::span<const uint32_t> roots = {}) const;
+
     /// Distance to the nearest source, eq. 10 of Bendels & Klein 2003, for all vertices not farther than
     /// `radius`; their values are bit for bit those of radius = infinity. Sources at vertices, on edges and
     /// inside faces; none gives an empty field. Safe to call from several threads at once.
@@ -94,6 +99,7 @@ class GeodesicSolver {
   private:
     friend class GeodesicMarch;
     struct State;
+    explicit GeodesicSolver(std::shared_ptr<State> state) : state_(std::move(state)) {}
     std::shared_ptr<State> state_;
 };
 

@@ -97,6 +97,13 @@ SolverUpdate GeodesicSolver::update(const Mesh& mesh, std::span<const Vec3> posi
     return {false, change.triangles.size(), change.flipped, change.fans};
 }
 
+GeodesicSolver GeodesicSolver::updated(const Mesh& mesh, std::span<const Vec3> positions,
+                                       std::span<const uint32_t> roots) const {
+    GeodesicSolver next(state_); // what is shared, update() copies
+    next.update(mesh, positions, roots);
+    return next;
+}
+
 DistanceField GeodesicSolver::solve(std::span<const SurfacePoint> sources, double radius,
                                     DistanceMethod method) const {
     return state_->solve(source_parts(state_->graph, sources, {}, {}), radius, method);

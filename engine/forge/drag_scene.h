@@ -3,6 +3,7 @@
 
 #include "engine/forge/edit_input.h"
 #include "engine/forge/surface_state.h"
+#include "engine/forge/surface_version.h"
 #include "engine/mesh/incidence.h"
 #include "engine/mesh/vertex_numbers.h"
 
@@ -14,9 +15,13 @@ class DragScene {
   public:
     /// The mesh at these positions (world), which earlier edits left; both must outlive this unchanged, as
     /// must `history`, what refinement made of the file's mesh until it is this one. `solvers` of the mesh
-    /// outlive it too, so that the next scene measures without preparing all anew. O(mesh).
+    /// outlive it too, so that the next scene measures without preparing all anew; `number` as in
+    /// EditedSurface. O(mesh).
     DragScene(const Mesh& mesh, std::span<const Vec3> positions, const RefinementHistory& history,
-              KeptSolvers& solvers);
+              KeptSolvers& solvers, uint64_t number = new_surface_number());
+    /// The version outlives this.
+    DragScene(const SurfaceVersion& version, KeptSolvers& solvers)
+        : DragScene(*version.mesh, version.positions, *version.history, solvers, version.number) {}
 
     /// Prepares distances along the surface now, O(mesh), which the first drag would do else.
     void warm();

@@ -7,17 +7,43 @@
 #include "engine/edit/recipe.h"
 #include "engine/occluder/occluder_set.h"
 
+#include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace anvil {
 
+/// Models that outlast a recipe, by shape and field. What changes in their files meanwhile is not seen.
+class KeptModels {
+  public:
+    /// Baked fields come from `cache` and go there, if there is one. @throws as build_model() does.
+    std::shared_ptr<const OccluderModel> model(const Occluder& occluder, const std::filesystem::path& folder,
+                                               Log& log, Progress& progress, const FileCache* cache);
+
+    /// Lets go of those of no occluder of these.
+    void drop_all_but(const std::vector<const Occluder*>& used);
+
+  private:
+    struct Kept {
+        OccluderShape shape;
+        Field field;
+        std::filesystem::path folder;
+        std::shared_ptr<const OccluderModel> model;
+
+        bool is_of(const Occluder& occluder) const;
+    };
+    std::vector<Kept> kept_;
+};
+
 class EditOccluders {
   public:
-    /// Builds the models of all occluders, and bakes those that the recipe says to. The recipe must outlive
-    /// this; where its occluders are, move and how they act may change meanwhile, their shapes and fields
-    /// not. @throws InputError naming the place in the recipe; Cancelled.
-    EditOccluders(const Recipe& recipe, Log& log, Progress& progress, const FileCache* cache);
+    /// Builds the models of all occluders that are not among the kept ones, and bakes those that the recipe
+    /// says to. The recipe must outlive this; where its occluders are, move and how they act may change
+    /// meanwhile, their shapes and fields not. @throws InputError naming the place in the recipe; Cancelled.
+    EditOccluders(const Recipe& recipe, Log& log, Progress& progress, const FileCache* cache,
+                  KeptModels* kept = nullptr);
 
     /// Those that one edit uses, each where its pose and motion put it. `place` is "edits[i]".
     /// @throws InputError
@@ -28,7 +54,7 @@ class EditOccluders {
 
   private:
     const Recipe& recipe_;
-    std::map<std::string, OccluderModel> models_;
+    std::map<std::string, std::shared_ptr<const OccluderModel>> models_;
 };
 
 } // namespace anvil

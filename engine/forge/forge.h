@@ -10,7 +10,7 @@
 #include "engine/mesh/mesh.h"
 #include "engine/refine/refined_mesh.h"
 
-#include <optional>
+#include <memory>
 #include <vector>
 
 namespace anvil {
@@ -25,7 +25,7 @@ struct ForgeResult {
     std::vector<bool> touching; ///< vertices that touch an occluder after the last edit that has any
     /// The mesh with the vertices that refinement added, old ones first, as it is before any edit; absent if
     /// none were added.
-    std::optional<Mesh> refined;
+    std::shared_ptr<const Mesh> refined;
     std::vector<VertexParents> parents; ///< of the added vertices
     ForgeReport report;                 ///< its load and write seconds are the caller's to fill
 };

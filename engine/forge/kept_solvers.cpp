@@ -2,41 +2,56 @@
 
 #include "engine/distance/smoothed_surface.h"
 
+#include <algorithm>
+#include <atomic>
+
 namespace anvil {
 
-const GeodesicSolver& KeptSolvers::solver(const Mesh& mesh, std::span<const Vec3> positions,
-                                          uint32_t rounds) {
-    const auto known = kept_.find(rounds);
-    if (known != kept_.end() && known->second.is_current) {
-        return known->second.solver;
+namespace {
+
+/// Positions smoothed by `rounds`; `store` holds them if they are not the mesh's own.
+std::span<const Vec3> smoothed(const Mesh& mesh, std::span<const Vec3> positions, uint32_t rounds,
+                               std::vector<Vec3>& store) {
+    if (rounds == 0) {
+        return positions;
     }
-    const std::vector<Vec3> smoothed =
-        rounds > 0 ? smoothed_positions(mesh, positions, rounds) : std::vector<Vec3>{};
-    const std::span<const Vec3> places = rounds > 0 ? std::span<const Vec3>(smoothed) : positions;
+    store = smoothed_positions(mesh, positions, rounds);
+    return store;
+}
+
+bool is_of_file(const EditedSurface& surface) {
+    const std::vector<Vec3>& file = surface.history.first_mesh().positions;
+    return surface.history.roots().empty() &&
+           std::equal(file.begin(), file.end(), surface.positions.begin(), surface.positions.end());
+}
+
+} // namespace
+
+uint64_t new_surface_number() {
+    static std::atomic<uint64_t> last{0};
+    return ++last;
+}
+
+const GeodesicSolver& KeptSolvers::solver(const EditedSurface& surface, uint32_t rounds) {
+    std::vector<Vec3> store;
+    auto known = kept_.find(rounds);
     if (known == kept_.end()) {
-        return kept_.emplace(rounds, Kept{GeodesicSolver(mesh, places), {}}).first->second.solver;
+        const Mesh& file = surface.history.first_mesh();
+        GeodesicSolver of_file(file, smoothed(file, file.positions, rounds, store));
+        known = kept_.emplace(rounds, Kept{std::move(of_file), std::nullopt, 0}).first;
     }
-    known->second.solver.update(mesh, places, known->second.roots);
-    known->second.roots.clear();
-    known->second.is_current = true;
-    return known->second.solver;
-}
-
-void KeptSolvers::moved() {
-    for (auto& [rounds, kept] : kept_) {
-        kept.is_current = false;
-    }
-}
-
-void KeptSolvers::divided(std::span<const uint32_t> roots) {
-    for (auto& [rounds, kept] : kept_) {
-        std::vector<uint32_t> first(roots.begin(), roots.end());
-        for (uint32_t& root : first) {
-            root = kept.roots.empty() ? root : kept.roots[root];
+    Kept& kept = known->second;
+    if (kept.number != surface.number) {
+        kept.number = 0;
+        kept.of_surface.reset(); // before the next one takes memory
+        if (!is_of_file(surface)) {
+            kept.of_surface =
+                kept.of_file.updated(surface.mesh, smoothed(surface.mesh, surface.positions, rounds, store),
+                                     surface.history.roots());
         }
-        kept.roots = std::move(first);
-        kept.is_current = false;
+        kept.number = surface.number;
     }
+    return kept.of_surface ? *kept.of_surface : kept.of_file;
 }
 
 } // namespace anvil

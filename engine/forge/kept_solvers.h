@@ -1,33 +1,42 @@
-// Geodesic solvers that follow a mesh through its edits.
+// Geodesic solvers that serve a mesh through its edits.
 #pragma once
 
 #include "engine/distance/distance.h"
+#include "engine/refine/refined_places.h"
 
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
-#include <vector>
 
 namespace anvil {
 
-/// One solver per amount of smoothing, made when first asked for. Edits that change a part of the mesh cost
-/// its next solver the work of that part. Not for several threads.
+/// A number that no other surface (a mesh at certain positions) of this process has.
+uint64_t new_surface_number();
+
+/// A surface that edits have left, as solvers need to know it.
+struct EditedSurface {
+    const Mesh& mesh;
+    std::span<const Vec3> positions;
+    const RefinementHistory& history; ///< of the mesh
+    uint64_t number;                  ///< the same for no other surface
+};
+
+/// For each amount of smoothing a solver of the file's own mesh, made when first asked for and then kept, and
+/// what it becomes when brought up to date with the surface asked for last: an edit costs the work of the
+/// part by which the surface differs from the file's. Distances so depend on that surface alone, bit for bit,
+/// and not on those asked for before: an edit that is undone and done again, or replayed from a recipe, gives
+/// the same. For one file; not for several threads.
 class KeptSolvers {
   public:
-    /// Distances on `mesh` at `positions`, smoothed by `rounds`. These are the same as before unless one of
-    /// the calls below said otherwise.
-    const GeodesicSolver& solver(const Mesh& mesh, std::span<const Vec3> positions, uint32_t rounds);
-
-    /// The mesh has other positions now.
-    void moved();
-    /// The mesh is another now: `roots` has, per triangle, the one before that it is part of. Vertices keep
-    /// their numbers, new ones follow.
-    void divided(std::span<const uint32_t> roots);
+    /// Distances on the surface, smoothed by `rounds`. Holds until another surface is asked for.
+    const GeodesicSolver& solver(const EditedSurface& surface, uint32_t rounds);
 
   private:
     struct Kept {
-        GeodesicSolver solver;
-        std::vector<uint32_t> roots; ///< per triangle now: that of the solver's mesh; empty: itself
-        bool is_current = true;
+        GeodesicSolver of_file;
+        std::optional<GeodesicSolver> of_surface; ///< empty: it is the file's
+        uint64_t number;                          ///< of the surface
     };
     std::map<uint32_t, Kept> kept_; ///< by rounds of smoothing
 };

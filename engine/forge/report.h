@@ -22,6 +22,8 @@ struct StageSeconds {
     double deform = 0;
     double download = 0;
     double write = 0;
+
+    StageSeconds& operator+=(const StageSeconds& more);
 };
 
 struct StepCounts {

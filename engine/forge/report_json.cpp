@@ -95,6 +95,19 @@ Json edit_json(const EditReport& e) {
 
 } // namespace
 
+StageSeconds& StageSeconds::operator+=(const StageSeconds& more) {
+    load += more.load;
+    distance += more.distance;
+    solve += more.solve;
+    refine += more.refine;
+    bake += more.bake;
+    upload += more.upload;
+    deform += more.deform;
+    download += more.download;
+    write += more.write;
+    return *this;
+}
+
 std::string report_json(const ForgeReport& report) {
     const StageSeconds& s = report.seconds;
     Json json = {{"device", report.device},

@@ -29,12 +29,12 @@ struct DistanceQuery {
 /// One mesh at one set of positions, both of which must outlive it unchanged. The search tree, O(mesh), is
 /// built when first asked for and then kept. Not for several threads.
 /// `history`: what refinement made of the file's mesh, to which addresses belong, until it is this one.
-/// `solvers`: of this mesh, at these positions; they can serve the mesh's next state.
+/// `solvers` of the file's mesh outlive it and serve its next states. `number`: of this surface.
 class SurfaceState {
   public:
     SurfaceState(const Mesh& mesh, std::span<const Vec3> positions, const RefinementHistory& history,
-                 KeptSolvers& solvers)
-        : mesh_(mesh), positions_(positions), history_(history), solvers_(solvers) {}
+                 KeptSolvers& solvers, uint64_t number = new_surface_number())
+        : mesh_(mesh), positions_(positions), history_(history), solvers_(solvers), number_(number) {}
 
     /// `place` begins the message, e.g. "edits[0].handles[1].at".
     /// @throws InputError if an index is out of range or the mesh has no surface to be near to.
@@ -56,7 +56,9 @@ class SurfaceState {
     std::vector<DistanceField> distances(std::span<const DistanceQuery> queries);
 
     /// Of geodesic distances on a copy smoothed by `rounds`; built, O(mesh), if that has not been done yet.
-    const GeodesicSolver& solver(uint32_t rounds) { return solvers_.solver(mesh_, positions_, rounds); }
+    const GeodesicSolver& solver(uint32_t rounds) {
+        return solvers_.solver({mesh_, positions_, history_, number_}, rounds);
+    }
 
     size_t vertex_count() const { return positions_.size(); }
     Vec3 position_of(const SurfacePoint& point) const;
@@ -74,6 +76,7 @@ class SurfaceState {
     std::span<const Vec3> positions_;
     const RefinementHistory& history_;
     KeptSolvers& solvers_;
+    uint64_t number_;
     std::unique_ptr<SearchTree> tree_;
 };
 

@@ -24,4 +24,10 @@ bool needs_double(const Mesh& mesh, std::span<const Vec3> positions, OutputPreci
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions,
                 OutputPrecision precision = OutputPrecision::automatic);
 
+/// The same after an edit that `moved` vertices (n entries): the file's own normals are turned along, as
+/// update_normals() does.
+void write_edited_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions,
+                       const std::vector<bool>& moved,
+                       OutputPrecision precision = OutputPrecision::automatic);
+
 } // namespace anvil

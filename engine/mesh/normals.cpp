@@ -1,5 +1,6 @@
 #include "engine/mesh/normals.h"
 
+#include <limits>
 #include <numeric>
 
 namespace anvil {
@@ -110,25 +111,36 @@ void NormalTurner::turn_corners() {
     }
 }
 
-Column* find_column(Mesh& mesh, const char* name) {
+constexpr size_t absent = std::numeric_limits<size_t>::max();
+
+size_t find_column(const Mesh& mesh, const char* name) {
     const auto found = std::find_if(mesh.vertex_columns.begin(), mesh.vertex_columns.end(),
                                     [name](const Column& column) { return column.name == name; });
-    return found == mesh.vertex_columns.end() ? nullptr : &*found;
+    return found == mesh.vertex_columns.end() ? absent
+                                              : static_cast<size_t>(found - mesh.vertex_columns.begin());
+}
+
+/// Of nx, ny, nz; all three are there, or `absent` is the first.
+std::array<size_t, 3> normal_columns(const Mesh& mesh) {
+    const std::array<size_t, 3> found = {find_column(mesh, "nx"), find_column(mesh, "ny"),
+                                         find_column(mesh, "nz")};
+    const bool all = std::find(found.begin(), found.end(), absent) == found.end();
+    return all ? found : std::array<size_t, 3>{absent, absent, absent};
 }
 
 } // namespace
 
+bool has_normals(const Mesh& mesh) {
+    return normal_columns(mesh)[0] != absent || !mesh.corner_normals.empty();
+}
+
 void update_normals(Mesh& mesh, std::span<const Vec3> new_positions, const std::vector<bool>& moved) {
-    Column* x = find_column(mesh, "nx");
-    Column* y = find_column(mesh, "ny");
-    Column* z = find_column(mesh, "nz");
-    const bool columns = x != nullptr && y != nullptr && z != nullptr;
-    if (!columns && mesh.corner_normals.empty()) {
+    if (!has_normals(mesh)) {
         return;
     }
     NormalTurner turner(mesh, new_positions, moved);
-    if (columns) {
-        turner.turn_columns(*x, *y, *z);
+    if (const auto [x, y, z] = normal_columns(mesh); x != absent) {
+        turner.turn_columns(mesh.vertex_columns[x], mesh.vertex_columns[y], mesh.vertex_columns[z]);
     }
     if (!mesh.corner_normals.empty()) {
         turner.turn_corners();

@@ -8,7 +8,10 @@
 
 namespace anvil {
 
-/// Turns the normals that the file gave (vertex columns nx, ny, nz and corner_normals) at every vertex that
+/// Whether the file gave normals: vertex columns nx, ny, nz, or corner_normals.
+bool has_normals(const Mesh& mesh);
+
+/// Turns the normals that the file gave at every vertex that
 /// moved or shares a polygon with one that did, by the shortest rotation that takes the geometric vertex
 /// normal of mesh.positions to that of `new_positions`; lengths and deviations from the geometric normal
 /// (creases) are kept. All others stay bit-identical: a pool entry shared with an unmoved corner is copied

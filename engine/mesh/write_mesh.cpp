@@ -5,6 +5,7 @@
 #include "engine/mesh/mesh_format.h"
 #include "engine/mesh/mesh_output.h"
 #include "engine/mesh/mesh_writer.h"
+#include "engine/mesh/normals.h"
 #include "engine/mesh/precision.h"
 
 namespace anvil {
@@ -116,6 +117,17 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<c
         break;
     }
     write_file_atomically(path, std::string_view(content));
+}
+
+void write_edited_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions,
+                       const std::vector<bool>& moved, OutputPrecision precision) {
+    if (!has_normals(mesh)) {
+        write_mesh(path, mesh, positions, precision);
+        return;
+    }
+    Mesh turned = mesh;
+    update_normals(turned, positions, moved);
+    write_mesh(path, turned, positions, precision);
 }
 
 } // namespace anvil

@@ -40,6 +40,9 @@ class RefinementHistory {
     const Mesh& first_mesh() const { return mesh_; }
     /// Of all vertices added so far.
     const std::vector<VertexParents>& parents() const { return parents_; }
+    /// Per current triangle: the triangle of the mesh before any refinement that it is or is part of; empty:
+    /// each is itself.
+    const std::vector<uint32_t>& roots() const { return roots_; }
 
     /// The point of the current mesh (with these triangles) at barycentrics of a triangle of the mesh before
     /// any refinement.
@@ -52,7 +55,7 @@ class RefinementHistory {
   private:
     const Mesh& mesh_;
     std::vector<VertexParents> parents_;
-    std::vector<uint32_t> roots_; ///< per current triangle: the triangle at first; empty: all as at first
+    std::vector<uint32_t> roots_;
 };
 
 } // namespace anvil
