@@ -5,6 +5,7 @@
 #include "app/cli/picture_options.h"
 #include "engine/core/error.h"
 #include "engine/core/number_text.h"
+#include "engine/document/recipe_paths.h"
 #include "engine/edit/recipe_json.h"
 #include "engine/mesh/mesh_format.h"
 #include "engine/mesh/mesh_reader.h"
@@ -44,12 +45,6 @@ OutputPrecision output_precision(const std::string& name) {
         return OutputPrecision::single_precision;
     }
     return name == "double" ? OutputPrecision::double_precision : OutputPrecision::automatic;
-}
-
-bool same_file(const fs::path& a, const fs::path& b) {
-    std::error_code error;
-    return fs::equivalent(a, b, error) ||
-           fs::absolute(a).lexically_normal() == fs::absolute(b).lexically_normal();
 }
 
 bool is_text(const fs::path& path) {
