@@ -1,4 +1,5 @@
 // SearchTree::closest() for many queries at once.
+#include "engine/mesh/leaf_views.h"
 #include "engine/mesh/search_tree.h"
 
 #include <bit>
@@ -10,8 +11,6 @@ namespace anvil {
 
 namespace {
 
-constexpr size_t lanes = 8;
-constexpr size_t quads = lanes / 4;
 constexpr size_t most_leaves = 2048;
 // Smaller groups and lists are decided as they are.
 constexpr size_t worth_parting = 20;
@@ -19,29 +18,6 @@ constexpr size_t worth_thinning = 2;
 // What a few operations in double or float may take off a result.
 constexpr double rounded = 1e-9;
 constexpr float rounded_float = 1e-5F;
-constexpr float largest_float = std::numeric_limits<float>::max();
-
-/// One number of each lane, a lane for one query or one part of a group.
-using LaneFloats = std::array<Float4, quads>;
-
-/// From the centre of a group of queries, in units of the mesh's diagonal.
-struct LanePoints {
-    std::array<LaneFloats, 3> at{};
-
-    void set(size_t lane, const Vec3& p) {
-        for (int axis = 0; axis < 3; ++axis) {
-            at[axis][lane / 4][lane % 4] = static_cast<float>(p[axis]);
-        }
-    }
-};
-
-/// Triangles that may be nearest to one of a group of queries, by their box.
-struct NearLeaf {
-    glm::vec3 centre; ///< from the group's centre
-    std::array<glm::vec3, 3> axes;
-    glm::vec3 half;
-    uint32_t index; ///< in the tree
-};
 
 /// A point at a distance, seen from up to `radius` beside: how much farther it may be than the plane through
 /// it across the first line of sight.
@@ -213,49 +189,6 @@ class ClosestPointSearch {
         }
     }
 
-    /// A leaf's box as seen from the lanes' points.
-    struct View {
-        LaneFloats squared;            ///< distance
-        std::array<LaneFloats, 3> arm; ///< to the nearest point, along the box's axes
-    };
-
-    /// Fills views_, arms only for Arms; which of the list is nearest to each lane.
-    template <bool Arms>
-    std::array<uint32_t, lanes> look(const List& list, const LanePoints& p) {
-        views_.resize(list.size());
-        LaneFloats lowest;
-        lowest.fill(four(largest_float));
-        std::array<Int4, quads> nearest{};
-        for (size_t i = 0; i < list.size(); ++i) {
-            const NearLeaf& leaf = leaves_[list[i]];
-            const int k = static_cast<int>(i);
-            for (size_t quad = 0; quad < quads; ++quad) {
-                const Float4 x = p.at[0][quad] - leaf.centre.x;
-                const Float4 y = p.at[1][quad] - leaf.centre.y;
-                const Float4 z = p.at[2][quad] - leaf.centre.z;
-                Float4 squared{};
-                for (int axis = 0; axis < 3; ++axis) {
-                    const Float4 at = leaf.axes[axis].x * x + leaf.axes[axis].y * y + leaf.axes[axis].z * z;
-                    const float half = leaf.half[axis];
-                    const Float4 arm = most(-half - at, least(half - at, Float4{}));
-                    if constexpr (Arms) {
-                        views_[i].arm[axis][quad] = arm;
-                    }
-                    squared += arm * arm;
-                }
-                views_[i].squared[quad] = squared;
-                const auto nearer = squared < lowest[quad];
-                lowest[quad] = nearer ? squared : lowest[quad];
-                nearest[quad] = nearer ? Int4{k, k, k, k} : nearest[quad];
-            }
-        }
-        std::array<uint32_t, lanes> result;
-        for (size_t lane = 0; lane < lanes; ++lane) {
-            result[lane] = static_cast<uint32_t>(nearest[lane / 4][lane % 4]);
-        }
-        return result;
-    }
-
     /// What a leaf must not be beyond, for four parts of a group; see the formula above.
     struct Horizon {
         Float4 radius;
@@ -269,7 +202,7 @@ class ClosestPointSearch {
         for (size_t i = 0; i < parts.count; ++i) {
             centres.set(i, local(parts.box[i].centre()));
         }
-        const std::array<uint32_t, lanes> nearest = look<true>(list, centres);
+        const std::array<uint32_t, lanes> nearest = views_.look<true>(leaves_, list, centres);
         std::array<Horizon, quads> horizons{};
         for (size_t i = 0; i < parts.count; ++i) {
             set_horizon(horizons[i / 4], i % 4, parts.box[i], leaves_[list[nearest[i]]]);
@@ -315,7 +248,7 @@ class ClosestPointSearch {
     }
 
     /// Bits of the parts for which a leaf holds nothing. What is not a number puts it beyond nothing.
-    unsigned beyond(const Horizon& horizon, const NearLeaf& leaf, const View& view, size_t quad) const {
+    unsigned beyond(const Horizon& horizon, const NearLeaf& leaf, const LeafView& view, size_t quad) const {
         const Float4 distance = square_root(view.squared[quad]);
         const Float4 farther = distance - horizon.distance - blur_;
         const auto& [x, y, z] = horizon.towards;
@@ -334,31 +267,36 @@ class ClosestPointSearch {
         for (size_t i = 0; i < group.size(); ++i) {
             points.set(i, local(queries_[group[i]]));
         }
-        const std::array<uint32_t, lanes> nearest = look<false>(list, points);
+        const std::array<uint32_t, lanes> nearest = views_.look<false>(leaves_, list, points);
         measured_.clear();
-        LaneFloats limits{};
-        LaneFloats box_limits{}; // of squared distances to boxes
+        limits_.fill(four(largest_float));
+        box_limits_ = limits_;
         for (size_t i = 0; i < group.size(); ++i) {
-            const float limit = measure(i, leaves_[list[nearest[i]]], queries_[group[i]], largest_float);
-            limits[i / 4][i % 4] = limit;
-            box_limits[i / 4][i % 4] = limit + blur_ * (2 * std::sqrt(limit) + blur_); // (sqrt + blur)^2
+            lower(i, measure(i, leaves_[list[nearest[i]]], queries_[group[i]], largest_float));
         }
         const unsigned used = (1U << group.size()) - 1;
         for (size_t k = 0; k < list.size(); ++k) {
-            for (unsigned near = not_above(views_[k].squared, box_limits) & used; near != 0;
+            for (unsigned near = not_above(views_[k].squared, box_limits_) & used; near != 0;
                  near &= near - 1) {
                 const auto i = static_cast<size_t>(std::countr_zero(near));
                 if (k != nearest[i]) {
-                    limits[i / 4][i % 4] =
-                        measure(i, leaves_[list[k]], queries_[group[i]], limits[i / 4][i % 4]);
+                    lower(i, measure(i, leaves_[list[k]], queries_[group[i]], limits_[i / 4][i % 4]));
                 }
             }
         }
         for (const auto& [lane, low, leaf] : measured_) {
-            const unsigned lowest = signs(~(low > limits[lane / 4][lane % 4]));
+            const unsigned lowest = signs(~(low > limits_[lane / 4][lane % 4]));
             for (unsigned near = lowest & ((1U << count_of(*leaf)) - 1); near != 0; near &= near - 1) {
                 offer(group[lane], first_slot(*leaf) + static_cast<uint32_t>(std::countr_zero(near)));
             }
+        }
+    }
+
+    /// What the squared distance of a lane's query is at most.
+    void lower(size_t lane, float limit) {
+        if (limit < limits_[lane / 4][lane % 4]) {
+            limits_[lane / 4][lane % 4] = limit;
+            box_limits_[lane / 4][lane % 4] = limit + blur_ * (2 * std::sqrt(limit) + blur_);
         }
     }
 
@@ -416,7 +354,9 @@ class ClosestPointSearch {
     float blur_ = 0;             ///< what floats take off distances to boxes
     std::vector<uint32_t> near_; ///< leaves of the tree
     std::vector<NearLeaf> leaves_;
-    std::vector<View> views_;
+    LeafViews views_;
+    LaneFloats limits_{};     ///< of squared distances, of the queries being decided
+    LaneFloats box_limits_{}; ///< and to boxes: (root of the limit + blur_)^2
     std::vector<Measured> measured_;
     std::deque<std::array<List, lanes>> lists_; ///< of the parts, by depth
 };

@@ -112,18 +112,18 @@ class BrickGrower {
         const bool root = first_ == 0;
         const std::span<Brick> children(&tree_.bricks[first_ + begin], end - begin);
         const Brick& parent = tree_.bricks[root ? 0 : wanted_[begin].parent];
+        const std::span<double> errors(&errors_[begin], children.size());
+        const bool finest = children.front().level == 0;
         if (root) {
             sampler.sample(children.front());
+        } else if (finest) {
+            sampler.sample_finest_children(parent, children, errors);
         } else {
             sampler.sample_children(parent, children);
         }
-        if (children.front().level > 0) {
+        if (!finest) {
             sampler.find_octants_to_refine(children);
             return;
-        }
-        const std::span<double> errors(&errors_[begin], children.size());
-        for (size_t i = 0; i < children.size() && !root; ++i) {
-            errors[i] = BrickSampler::spares(parent, children[i]) ? -1 : 0;
         }
         sampler.find_surface_errors(children, errors);
     }

@@ -20,6 +20,8 @@ constexpr double beside_samples = 1.2;
 /// All of a parent's octants' samples are a lattice of this side.
 constexpr int family_side = 2 * brick_cells + 1;
 
+constexpr int family_size = family_side * family_side * family_side;
+
 int family_index(const CellIndex& place) {
     return place.x + family_side * (place.y + family_side * place.z);
 }
@@ -63,6 +65,17 @@ void for_samples(const Brick& parent, AnyBrick& child, const Visit& visit) {
     }
 }
 
+/// visit(index in the family's lattice) for each of the child's samples in the middle of a parent's cell.
+template <class Visit>
+void for_centres(const Brick& parent, const Brick& child, const Visit& visit) {
+    for_samples(parent, child, [&](int at, const glm::vec4&) {
+        const CellIndex place = family_place(at);
+        if ((place.x & place.y & place.z & 1) != 0) {
+            visit(at);
+        }
+    });
+}
+
 } // namespace
 
 Vec3 BrickSampler::point(const Brick& brick, const Vec3& within) const {
@@ -89,33 +102,86 @@ void BrickSampler::sample(Brick& brick) {
     }
 }
 
-void BrickSampler::sample_children(const Brick& parent, std::span<Brick> children) {
-    constexpr int size = family_side * family_side * family_side;
-    std::vector<glm::vec4> lattice(size);
-    std::vector<bool> open(size, false);
-    for (const Brick& child : children) {
-        for_samples(parent, child, [&](int at, const glm::vec4&) { open[at] = true; });
-    }
+void BrickSampler::begin_family(const Brick& parent) {
+    lattice_.resize(family_size);
+    known_.assign(family_size, false);
     for (int i = 0; i < brick_samples; ++i) {
         const int at = family_index(2 * sample_place(i));
-        lattice[at] = parent.samples[i];
-        open[at] = false;
+        lattice_[at] = parent.samples[i];
+        known_[at] = true;
     }
+}
+
+/// What of these places in the family's lattice is not known yet.
+void BrickSampler::sample_lattice(const Brick& parent, std::span<const int> places) {
     points_.clear();
-    for (int at = 0; at < size; ++at) {
-        if (open[at]) {
+    std::vector<int> open;
+    for (const int at : places) {
+        if (!known_[at]) {
+            known_[at] = true;
+            open.push_back(at);
             points_.push_back(point(parent, 0.5 * Vec3(family_place(at))));
         }
     }
     trace();
-    size_t next = 0;
-    for (int at = 0; at < size; ++at) {
-        if (open[at]) {
-            lattice[at] = found_sample(next++);
+    for (size_t i = 0; i < open.size(); ++i) {
+        lattice_[open[i]] = found_sample(i);
+    }
+}
+
+void BrickSampler::sample_children(const Brick& parent, std::span<Brick> children) {
+    begin_family(parent);
+    finish_children(parent, children, {});
+}
+
+void BrickSampler::sample_finest_children(const Brick& parent, std::span<Brick> children,
+                                          std::span<double> errors) {
+    begin_family(parent);
+    std::vector<int> centres;
+    for (const Brick& child : children) {
+        for_centres(parent, child, [&](int at) { centres.push_back(at); });
+    }
+    sample_lattice(parent, centres);
+    for (size_t i = 0; i < children.size(); ++i) {
+        errors[i] = spares_centres(parent, children[i]) ? -1 : 0;
+    }
+    finish_children(parent, children, errors);
+    for (size_t i = 0; i < children.size(); ++i) {
+        if (errors[i] == 0 && spares(parent, children[i])) {
+            errors[i] = -1;
         }
     }
+}
+
+/// Whether the parent interpolates well enough in the middle of its own cells, where it is off most.
+bool BrickSampler::spares_centres(const Brick& parent, const Brick& child) const {
+    bool good = true;
+    for_centres(parent, child, [&](int at) {
+        const double distance = lattice_[at].w;
+        const double other = parent.interpolated(cells_at(parent, 0.5 * Vec3(family_place(at)))).w;
+        good = good && beside_centre * std::abs(other - distance) <= adaptive_tolerance(distance);
+    });
+    return good;
+}
+
+/// Those without a negative error.
+void BrickSampler::finish_children(const Brick& parent, std::span<Brick> children,
+                                   std::span<const double> errors) {
+    std::vector<bool> wanted(family_size, false);
+    for (size_t i = 0; i < children.size(); ++i) {
+        if (errors.empty() || errors[i] >= 0) {
+            for_samples(parent, children[i], [&](int at, const glm::vec4&) { wanted[at] = true; });
+        }
+    }
+    std::vector<int> places;
+    for (int at = 0; at < family_size; ++at) {
+        if (wanted[at]) {
+            places.push_back(at);
+        }
+    }
+    sample_lattice(parent, places);
     for (Brick& child : children) {
-        for_samples(parent, child, [&](int at, glm::vec4& sample) { sample = lattice[at]; });
+        for_samples(parent, child, [&](int at, glm::vec4& sample) { sample = lattice_[at]; });
     }
 }
 

@@ -19,6 +19,11 @@ class BrickSampler {
     /// parent.
     void sample_children(const Brick& parent, std::span<Brick> children);
 
+    /// The same on the finest level: leaves out, with -1 in `errors`, those that the parent spares. It is
+    /// held against the samples in the middle of its cells first; most that it spares cost no more than
+    /// these.
+    void sample_finest_children(const Brick& parent, std::span<Brick> children, std::span<double> errors);
+
     /// Sets `refined` of sampled bricks: the octants that the surface is near to, or that they interpolate
     /// too badly.
     void find_octants_to_refine(std::span<Brick> bricks);
@@ -27,15 +32,18 @@ class BrickSampler {
     /// Negative entries of `errors` stay, and cost nothing.
     void find_surface_errors(std::span<const Brick> bricks, std::span<double> errors);
 
-    /// Whether the coarser brick interpolates well enough at all of this one's samples.
-    static bool spares(const Brick& coarser, const Brick& brick);
-
   private:
     struct Test {
         size_t brick;
         CellIndex cell;
     };
 
+    /// Whether the coarser brick interpolates well enough at all of the other's samples.
+    static bool spares(const Brick& coarser, const Brick& brick);
+    bool spares_centres(const Brick& parent, const Brick& child) const;
+    void begin_family(const Brick& parent);
+    void sample_lattice(const Brick& parent, std::span<const int> places);
+    void finish_children(const Brick& parent, std::span<Brick> children, std::span<const double> errors);
     Vec3 point(const Brick& brick, const Vec3& within) const;
     glm::vec4 found_sample(size_t i) const;
     void trace();
@@ -46,6 +54,8 @@ class BrickSampler {
     const ExactDistance& solid_;
     const BrickLayout& layout_;
     std::vector<Test> tests_;
+    std::vector<glm::vec4> lattice_; ///< samples of a family
+    std::vector<bool> known_;        ///< which of them
     std::vector<Vec3> points_;
     std::vector<SignedDistance> found_;
 };
