@@ -3,9 +3,9 @@
 #include "engine/core/atomic_file.h"
 #include "engine/core/error.h"
 #include "engine/core/read_file.h"
+#include "engine/core/user_folder.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <vector>
 
@@ -49,22 +49,6 @@ std::optional<std::string> unpacked(const std::string& file, const std::string& 
         return std::nullopt;
     }
     return file.substr(header_size + description.size());
-}
-
-std::optional<fs::path> folder_by_environment() {
-    const auto variable =
-        [](const char* name) { // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets any
-            const char* value = std::getenv(name);
-            return std::string(value == nullptr ? "" : value);
-        };
-    if (const std::string own = variable("ANVIL_CACHE"); !own.empty()) {
-        return own == "off" ? std::nullopt : std::optional<fs::path>(own);
-    }
-    if (const std::string caches = variable("XDG_CACHE_HOME"); !caches.empty()) {
-        return fs::path(caches) / "anvil";
-    }
-    const std::string home = variable("HOME");
-    return home.empty() ? std::nullopt : std::optional<fs::path>(fs::path(home) / ".cache" / "anvil");
 }
 
 } // namespace
@@ -146,7 +130,7 @@ void FileCache::trim() const {
 
 std::optional<FileCache> user_cache() {
     constexpr uint64_t limit = uint64_t{1} << 30;
-    const std::optional<fs::path> folder = folder_by_environment();
+    const std::optional<fs::path> folder = user_folder("ANVIL_CACHE", "XDG_CACHE_HOME", ".cache");
     return folder ? std::optional<FileCache>(FileCache(*folder, limit)) : std::nullopt;
 }
 
