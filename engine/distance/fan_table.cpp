@@ -1,6 +1,7 @@
 #include "engine/distance/fan_table.h"
 
 #include "engine/core/parallel_for.h"
+#include "engine/distance/angle_functions.h"
 #include "engine/distance/unfold.h"
 
 #include <numbers>
@@ -12,7 +13,8 @@ namespace {
 constexpr double full_bend = 0.3;
 
 struct Corner {
-    double cosine = 1, sine = 0;
+    double angle = 0;
+    float cosine = 1, sine = 0;
 };
 
 /// Of a triangle, the corner k between sides k and k - 1.
@@ -21,11 +23,14 @@ std::array<Corner, 3> corners_between(const std::array<double, 3>& length) {
     std::array<Corner, 3> corners;
     for (size_t k = 0; k < 3; ++k) {
         const double base = length[k], opposite = length[(k + 1) % 3], left = length[(k + 2) % 3];
-        // Both times twice the product of the sides.
+        // All three times twice the product of the sides.
         const double along = base * base + (left - opposite) * (left + opposite);
-        const double size = std::sqrt(along * along + four_areas * four_areas);
+        const double size = 2 * base * left;
         if (size > 0) {
-            corners[k] = {along / size, four_areas / size};
+            // Lengths that no triangle has make a flat one.
+            corners[k] = {half_turn_angle(along, four_areas),
+                          static_cast<float>(std::clamp(along / size, -1.0, 1.0)),
+                          static_cast<float>(std::min(four_areas / size, 1.0))};
         }
     }
     return corners;
@@ -83,7 +88,7 @@ class Builder {
         }
     }
 
-    double angle(uint32_t side) const { return std::atan2(corners_[side].sine, corners_[side].cosine); }
+    double angle(uint32_t side) const { return corners_[side].angle; }
 
     void measure(uint32_t vertex) {
         FanShape& shape = shapes_[vertex];
@@ -150,12 +155,9 @@ class Builder {
     }
 
     Spoke leaving_spoke(uint32_t side) const {
-        return {graph_.to(side),
-                static_cast<float>(graph_.side_length[side]),
-                directions_[side],
-                back_direction(side),
-                static_cast<float>(corners_[side].cosine),
-                static_cast<float>(corners_[side].sine)};
+        return {graph_.to(side),       static_cast<float>(graph_.side_length[side]),
+                directions_[side],     back_direction(side),
+                corners_[side].cosine, corners_[side].sine};
     }
 
     /// The spoke at the counterclockwise end of the corner that `side` leaves.
@@ -220,9 +222,8 @@ void sum_lengths(FanTable& table) {
 
 double corner_angle(const TriangleGraph& graph, uint32_t side) {
     const uint32_t first = side - side % 3;
-    const Corner corner =
-        corners_between({graph.length(first), graph.length(first + 1), graph.length(first + 2)})[side % 3];
-    return std::atan2(corner.sine, corner.cosine);
+    return corners_between({graph.length(first), graph.length(first + 1), graph.length(first + 2)})[side % 3]
+        .angle;
 }
 
 FanShape fan_shape(const TriangleLinks& graph, uint32_t vertex, uint32_t wished_first) {

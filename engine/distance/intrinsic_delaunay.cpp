@@ -45,13 +45,18 @@ class Flipper {
   private:
     void find_candidates() {
         std::mutex mutex;
-        parallel_for(graph_.corner_vertex.size(), 1 << 14, [&](size_t begin, size_t end) {
+        parallel_for(graph_.triangle_count(), 1 << 13, [&](size_t begin, size_t end) {
             std::vector<uint32_t> found;
-            for (size_t s = begin; s < end; ++s) {
-                const auto side = static_cast<uint32_t>(s);
-                const uint32_t twin = graph_.twin(side);
-                if (twin < TriangleGraph::tangled && side < twin && wants_flip(side, twin)) {
-                    found.push_back(side);
+            for (size_t t = begin; t < end; ++t) {
+                const uint32_t side = longest_side(static_cast<uint32_t>(t));
+                // Only sides opposite to an obtuse corner are ever flipped, of which a triangle has one.
+                if (opposite_cosine(side) < 0) {
+                    const uint32_t twin = graph_.twin(side);
+                    const bool told_there =
+                        twin < side && twin == longest_side(twin / 3) && opposite_cosine(twin) < 0;
+                    if (twin < TriangleGraph::tangled && !told_there && wants_flip(side, twin)) {
+                        found.push_back(std::min(side, twin));
+                    }
                 }
             }
             const std::scoped_lock lock(mutex);
@@ -59,6 +64,12 @@ class Flipper {
         });
         // The order decides among equally good triangulations; threads must not.
         std::sort(candidates_.begin(), candidates_.end(), std::greater<>());
+    }
+
+    uint32_t longest_side(uint32_t triangle) const {
+        const double* const length = &graph_.side_length[3 * size_t{triangle}];
+        const uint32_t k = length[1] > length[0] ? 1 : 0;
+        return 3 * triangle + (length[2] > length[k] ? 2 : k);
     }
 
     /// b^2 + c^2 - a^2 of the corner opposite the side: twice the product of its sides and its cosine.

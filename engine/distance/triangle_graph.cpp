@@ -26,12 +26,14 @@ void set_places(TriangleGraph& graph, std::span<const Vec3> positions) {
     });
     std::mutex mutex;
     parallel_for(graph.corner_vertex.size(), 1 << 14, [&](size_t begin, size_t end) {
-        double longest = 0;
+        double longest = 0; // squared
         for (size_t side = begin; side < end; ++side) {
-            longest = std::max(longest, graph.length(static_cast<uint32_t>(side)));
+            const auto s = static_cast<uint32_t>(side);
+            const Vec3 along = graph.places[graph.to(s)] - graph.places[graph.from(s)];
+            longest = std::max(longest, glm::dot(along, along));
         }
         const std::scoped_lock lock(mutex);
-        graph.longest_side = std::max(graph.longest_side, longest);
+        graph.longest_side = std::max(graph.longest_side, std::sqrt(longest));
     });
 }
 
@@ -103,12 +105,63 @@ void link_vertices(TriangleLinks& graph, size_t vertex_count) {
     }
 }
 
+namespace {
+
+/// Joins sides of one edge into a ring. @param ends: ascending by side
+void join(TriangleLinks& graph, std::span<const EdgeSide> ends) {
+    for (size_t i = 0; i < ends.size(); ++i) {
+        const uint32_t here = ends[i].side, there = ends[i + 1 < ends.size() ? i + 1 : 0].side;
+        graph.across[here] = 2 * there + (graph.from(here) == graph.from(there) ? 1 : 0);
+    }
+}
+
+/// The edges of a vertex with few corners, of one or two sides each, as nearly all are. Nothing here branches
+/// on what comes, which no processor could guess.
+/// @return false if it is no such vertex
+bool join_pairs(TriangleLinks& graph, uint32_t vertex) {
+    constexpr size_t most = 12;
+    const std::span<const uint32_t> leaving = graph.sides_leaving(vertex);
+    if (leaving.size() > most) {
+        return false;
+    }
+    std::array<EdgeSide, 2 * most + 2> ends;
+    size_t count = 0;
+    for (const uint32_t side : leaving) {
+        const uint32_t arriving = TriangleLinks::previous(side);
+        const uint32_t to = graph.to(side), from = graph.from(arriving);
+        if (to == vertex || from == vertex || to == from) {
+            return false;
+        }
+        ends[count] = {to, side};
+        count += to > vertex ? 1 : 0;
+        ends[count] = {from, arriving};
+        count += from > vertex ? 1 : 0;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        size_t like = 0, partners = 0;
+        for (size_t j = 0; j < count; ++j) {
+            const size_t same = ends[j].other == ends[i].other ? 1 : 0;
+            like += same;
+            partners += same * j;
+        }
+        if (like > 2) {
+            return false;
+        }
+        const uint32_t here = ends[i].side, there = ends[partners - (like - 1) * i].side;
+        graph.across[here] =
+            like == 1 ? no_index : 2 * there + (graph.from(here) == graph.from(there) ? 1 : 0);
+    }
+    return true;
+}
+
+} // namespace
+
 /// Joins the sides of each edge into a ring; each edge is done at its lower vertex, once.
 void link_edges_of(TriangleLinks& graph, uint32_t vertex, std::vector<EdgeSide>& ends) {
+    if (join_pairs(graph, vertex)) {
+        return;
+    }
     ends.clear();
-    const auto before = [](const EdgeSide& a, const EdgeSide& b) {
-        return (uint64_t{a.other} << 32 | a.side) < (uint64_t{b.other} << 32 | b.side);
-    };
     const auto add = [&](uint32_t other, uint32_t side) {
         if (other > vertex) {
             ends.push_back({other, side});
@@ -123,18 +176,17 @@ void link_edges_of(TriangleLinks& graph, uint32_t vertex, std::vector<EdgeSide>&
             add(from, arriving);
         }
     }
-    std::sort(ends.begin(), ends.end(), before);
+    std::sort(ends.begin(), ends.end(), [](const EdgeSide& a, const EdgeSide& b) {
+        return (uint64_t{a.other} << 32 | a.side) < (uint64_t{b.other} << 32 | b.side);
+    });
     for (size_t begin = 0, end = 0; begin < ends.size(); begin = end) {
         while (end < ends.size() && ends[end].other == ends[begin].other) {
             ++end;
         }
         if (end - begin == 1) {
             graph.across[ends[begin].side] = no_index;
-            continue;
-        }
-        for (size_t i = begin; i < end; ++i) {
-            const uint32_t here = ends[i].side, there = ends[i + 1 < end ? i + 1 : begin].side;
-            graph.across[here] = 2 * there + (graph.from(here) == graph.from(there) ? 1 : 0);
+        } else {
+            join(graph, {ends.data() + begin, end - begin});
         }
     }
 }

@@ -3,23 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace anvil {
 
 /// 16 times the squared area of a triangle, Kahan's ordering: no digits lost on needles; 0 where the lengths
 /// break the triangle inequality.
 inline double sixteen_area_squared(double a, double b, double c) {
-    if (a < b) {
-        std::swap(a, b);
-    }
-    if (b < c) {
-        std::swap(b, c);
-    }
-    if (a < b) {
-        std::swap(a, b);
-    }
-    return std::max(0.0, (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)));
+    // Sorted by extremes: which side is the longest no processor can guess.
+    const double larger = std::max(a, b), smaller = std::min(a, b);
+    const double first = std::max(larger, c), last = std::min(smaller, c);
+    const double middle = std::max(smaller, std::min(larger, c));
+    return std::max(0.0, (first + (middle + last)) * (last - (first - middle)) * (last + (first - middle)) *
+                             (first + (middle - last)));
 }
 
 struct PlanePoint {
