@@ -4,13 +4,8 @@
 #include "engine/distance/angle_functions.h"
 #include "engine/distance/unfold.h"
 
-#include <numbers>
-
 namespace anvil {
 namespace {
-
-// A path along an edge turns fully at a vertex whose angle exceeds 2 pi by this (radians); chosen by trial.
-constexpr double full_bend = 0.3;
 
 struct Corner {
     double angle = 0;
@@ -102,15 +97,13 @@ class Builder {
         if (walk.corners == graph_.sides_leaving(vertex).size() && walk.closes) {
             shape = {FanShape::Kind::closed, origin.side};
             fan.total = static_cast<float>(walk.total);
-            fan.bend =
-                static_cast<float>(std::clamp((walk.total - 2 * std::numbers::pi) / full_bend, 0.0, 1.0));
             wrap(origin.side, fan.total);
             return;
         }
         shape = fan_shape(graph_, vertex, origin.side);
         if (shape.kind == FanShape::Kind::open) {
             walk_from(shape.first, 0);
-            fan.bend = 1;
+            fan.total = Fan::open;
         }
     }
 

@@ -19,15 +19,13 @@ struct Spoke {
 
 /// What a vertex is for fronts that pass it.
 struct Fan {
-    /// Sum of the corner angles where the corners close around the vertex; `open` otherwise, so large that
-    /// directions never wrap around.
-    float total = open;
-    /// How much of a path along an edge bends here: 1 at boundaries, rising from 0 with the angle beyond 2
-    /// pi, `tangled` where the corners are not one fan: such a vertex is always a source of its own.
-    float bend = tangled;
+    /// Sum of the corner angles where the corners close around the vertex. `open` where they are one fan with
+    /// two ends, `tangled` where they are not one fan: such a vertex is always a source of its own. Both are
+    /// so large that directions never wrap around.
+    float total = tangled;
     uint32_t first_spoke = 0;
     static constexpr float open = 1e9F;
-    static constexpr float tangled = -1;
+    static constexpr float tangled = 2e9F;
 };
 
 /// Spokes of vertex v: [fans[v].first_spoke, fans[v + 1].first_spoke), counterclockwise. In a closed fan the

@@ -195,7 +195,6 @@ class FanUpdate {
         const uint32_t first = made.fans[local].first_spoke, end = made.fans[local + 1].first_spoke;
         Fan& fan = tables_.fans.fans[vertices_[local]];
         fan.total = made.fans[local].total;
-        fan.bend = made.fans[local].bend;
         for (uint32_t i = first; i < end; ++i) {
             rows.items.push_back(made.spokes[i]);
             if (!centre_.has(vertices_[made.spokes[i].vertex])) {

@@ -16,9 +16,8 @@ struct Front {
     uint32_t label = 0;
     uint32_t parents = 0; ///< that the value came from: both ends of an edge xored, or ~ of a single one
     uint32_t stamp = 0;   ///< run, then times marched from, then flags
-    float total = 0;      ///< Fan::total, or `tangled_total`
+    float total = 0;      ///< Fan::total
     uint32_t first_spoke = 0;
-    static constexpr float tangled_total = 2e9F; ///< of vertices that are always sources of their own
 };
 
 struct FrontPoint {

@@ -43,7 +43,7 @@ struct LookBehind::Wedge {
 
 uint32_t LookBehind::spoke_to(uint32_t vertex, uint32_t other, float direction) const {
     const float total = fronts_[vertex].total;
-    if (total == Front::tangled_total) {
+    if (total == Fan::tangled) {
         return no_index;
     }
     uint32_t best = no_index;

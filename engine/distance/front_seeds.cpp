@@ -39,7 +39,7 @@ class Walk {
     Walk(const FanTable& table, const FrontSeed& start, std::vector<FrontSeed>& seeds)
         : table_(table), label_(start.label), seeds_(seeds) {
         const Fan& fan = table.fans[start.vertex];
-        for (uint32_t i = fan.first_spoke; fan.bend >= 0 && i < end(start.vertex); ++i) {
+        for (uint32_t i = fan.first_spoke; fan.total != Fan::tangled && i < end(start.vertex); ++i) {
             const Spoke& p = table.spokes[i];
             const double corner = std::atan2(p.sine, p.cosine);
             double angle = start.direction - p.direction;
@@ -66,7 +66,7 @@ class Walk {
         const Fan& fan = table_.fans[out.vertex];
         uint32_t best = no_index;
         float least = infinity;
-        for (uint32_t i = fan.first_spoke; fan.bend >= 0 && i < end(out.vertex); ++i) {
+        for (uint32_t i = fan.first_spoke; fan.total != Fan::tangled && i < end(out.vertex); ++i) {
             float off = std::fabs(table_.spokes[i].direction - out.back);
             off = std::min(off, std::fabs(fan.total - off));
             if (table_.spokes[i].vertex == vertex && off < least) {

@@ -60,7 +60,7 @@ bool GeodesicSolver::State::deserves_exact(const DistanceField& field) const {
     return field.vertices.size() <= small_region ||
            std::any_of(field.vertices.begin(), field.vertices.end(), [&](uint32_t mesh_vertex) {
                const uint32_t v = graph.numbering.new_vertex[mesh_vertex];
-               return fans.fans[v].bend == Fan::tangled && !graph.sides_leaving(v).empty();
+               return fans.fans[v].total == Fan::tangled && !graph.sides_leaving(v).empty();
            });
 }
 

@@ -16,7 +16,10 @@ constexpr float too_late = 0.6F; // of the corner's sides: how far behind the fr
 constexpr float edge_delay = 0.35F;
 constexpr float curved_front = 3; // edges: nearer to its centre a front may come from beyond an acute corner
 
+// A path along an edge turns fully where it bends by this at a boundary, or where the angle around a vertex
+// exceeds 2 pi by it (radians); chosen by trial.
 constexpr float boundary_bend = 0.3F;
+constexpr float full_bend = 0.3F;
 
 constexpr uint32_t settled_bit = 1;
 constexpr uint32_t provisional_bit = 2; // came along an edge that may just graze the true way
@@ -44,7 +47,7 @@ VertexFronts::VertexFronts(const FanTable& table)
     : table_(table), fronts_(table.fans.size()),
       queue_(bucket_width * table.mean_length, 2 * table.longest + table.mean_length) {
     for (size_t v = 0; v < fronts_.size(); ++v) {
-        fronts_[v].total = table.fans[v].bend < 0 ? Front::tangled_total : table.fans[v].total;
+        fronts_[v].total = table.fans[v].total;
         fronts_[v].first_spoke = table.fans[v].first_spoke;
     }
     slack_ = static_cast<float>(table.mean_length);
@@ -60,10 +63,18 @@ void VertexFronts::fetch_spokes(const Front& front) const {
 }
 
 void VertexFronts::fetch_around_next() const {
-    if (const Waiting* const next = queue_.ahead(1)) {
-        const uint32_t end = fronts_[next->vertex + 1].first_spoke;
-        for (uint32_t i = fronts_[next->vertex].first_spoke; i < end; ++i) {
-            __builtin_prefetch(&fronts_[table_.spokes[i].vertex]);
+    for (uint32_t further = 1; further <= 3; ++further) {
+        const Waiting* const next = queue_.ahead(further);
+        if (next == nullptr) {
+            return;
+        }
+        const Front& front = fronts_[next->vertex];
+        if (front.distance == next->distance && !is_settled(front)) {
+            const uint32_t end = fronts_[next->vertex + 1].first_spoke;
+            for (uint32_t i = front.first_spoke; i < end; ++i) {
+                __builtin_prefetch(&fronts_[table_.spokes[i].vertex]);
+            }
+            return;
         }
     }
 }
@@ -80,7 +91,7 @@ void VertexFronts::accept(uint32_t vertex, float distance, float offset, float d
     }
     front.stamp &= ~(settled_bit | provisional_bit);
     front.distance = distance;
-    front.offset = front.total == Front::tangled_total ? distance : offset;
+    front.offset = front.total == Fan::tangled ? distance : offset;
     front.label = label;
     front.parents = parents;
     if (direction >= front.total) {
@@ -133,10 +144,9 @@ void VertexFronts::follow_edge(uint32_t from, const Spoke& spoke) {
     }
     const bool straight = a.distance <= a.offset || is_in_shadow(a, spoke.direction);
     // A slight saddle re-aims the centre straight behind it, a strong one becomes the centre.
-    float bend = std::fabs(table_.fans[from].bend);
-    if (a.total == Fan::open) {
-        bend = clamp_unit((std::fabs(spoke.direction - a.back) - pi) / boundary_bend);
-    }
+    const float bend = a.total == Fan::open
+                           ? clamp_unit((std::fabs(spoke.direction - a.back) - pi) / boundary_bend)
+                           : clamp_unit((a.total - 2 * pi) / full_bend);
     accept(spoke.vertex, distance, a.offset + (a.distance - a.offset) * bend, spoke.back, a.label, ~from,
            straight ? 0 : spoke.length * edge_delay);
     fronts_[spoke.vertex].stamp |= straight ? 0 : provisional_bit;
@@ -154,7 +164,9 @@ bool VertexFronts::may_lower(const Front& a, const Front& corner, float length, 
     return !(acute && is_settled(corner) && a.distance - a.offset > curved_front * length);
 }
 
-void VertexFronts::march_from(uint32_t vertex) {
+// Flattened, what is known of an edge stays in registers from here to the blend of its fronts: a tenth of the
+// time of a march.
+[[gnu::flatten]] void VertexFronts::march_from(uint32_t vertex) {
     const Front& a = fronts_[vertex];
     const Spoke* const first = table_.spokes.data() + a.first_spoke;
     const Spoke* const end = table_.spokes.data() + fronts_[vertex + 1].first_spoke;
