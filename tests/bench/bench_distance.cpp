@@ -216,6 +216,36 @@ void many_handles(const Case& c, const Mesh& mesh) {
         std::thread::hardware_concurrency(), work.median());
 }
 
+/// A radius that grows in 20 steps from a region of half of `count` vertices to one of `count`: going on from
+/// step to step, and anew at every step.
+void growing_radius(const Case& c, DistanceMethod method, const char* name, size_t count) {
+    constexpr int steps = 20;
+    const uint32_t source = c.sources.front();
+    const double first = radius_of(c.solver, source, count / 2), last = radius_of(c.solver, source, count);
+    if (!std::isfinite(last)) {
+        return;
+    }
+    Spread continued, anew;
+    for (int repeat = 0; repeat < 5; ++repeat) {
+        GeodesicMarch march = c.solver.march(method);
+        march.add({at_vertex(source), {}, {}});
+        march.grow(first);
+        double gone_on = 0, begun = 0;
+        for (int i = 1; i <= steps; ++i) {
+            const double radius = first + (last - first) * i / steps;
+            gone_on += timed([&] {
+                march.grow(radius);
+                march.field();
+            });
+            begun += timed([&] { c.solver.solve(at_vertex(source), radius, method); });
+        }
+        continued.samples.push_back(gone_on / steps);
+        anew.samples.push_back(begun / steps);
+    }
+    std::printf("  radius grown to %zu vertices in %d steps, %s: a step gone on with %.3f ms, anew %.3f ms\n",
+                count, steps, name, 1e3 * continued.median(), 1e3 * anew.median());
+}
+
 void errors(const Case& c, const TriangleGraph& graph, double mean_edge) {
     double sum = 0, worst = 0;
     size_t count = 0, above = 0;
@@ -256,6 +286,8 @@ void bench(const std::string& name, size_t source_count, bool with_errors) {
     compare(c, "34k", 34000);
     compare(c, "full", 0);
     many_handles(c, mesh);
+    growing_radius(c, DistanceMethod::approximate, "approximate", 30000);
+    growing_radius(c, DistanceMethod::exact, "exact", 4000);
     if (with_errors && mesh.vertex_count() < most_exact) {
         double sum = 0;
         for (uint32_t side = 0; side < graph.corner_vertex.size(); ++side) {
