@@ -1,6 +1,8 @@
 // One edit's displacement of one point an invocation; the work itself is shared/walk.h. What an edit does not
 // need is compiled out: drivers inline everything, and lavapipe runs both sides of every branch. With FEW_OCCLUDERS
-// the variant knows their number and kinds, so that loops unroll and occluders stay in registers.
+// the variant knows their number and kinds, so that loops unroll and occluders stay in registers. With
+// FIELD_WINDOWS, distances come from uniform buffers, as many points a dispatch as these hold: lavapipe reads
+// those ten times as fast as storage buffers.
 
 layout(local_size_x = 64) in; // deform_workgroup in engine/gpu/deform_pipeline.h
 
@@ -12,6 +14,10 @@ layout(local_size_x = 64) in; // deform_workgroup in engine/gpu/deform_pipeline.
 
 #include "shared/invocation.glsl"
 #include "shared/kernel_types.h"
+
+#ifdef FIELD_WINDOWS
+const uint field_window_floats = 16384u; // field_window_bytes in engine/gpu/deform_pipeline.h
+#endif
 
 layout(push_constant, scalar) uniform Parameters { KernelParams pushed; };
 KernelParams params; // `pushed`, with what this variant of the pipeline does not do set to zero
@@ -36,7 +42,7 @@ layout(binding = 5, scalar) readonly buffer Occluders { Occluder occluders[]; };
 layout(binding = 6, scalar) readonly buffer Nodes { ShapeNode nodes[]; };
 #endif
 layout(binding = 7, scalar) readonly buffer Targets { vec3 targets[]; };
-layout(binding = 8, scalar) writeonly buffer Results { VertexResult results[]; };
+layout(binding = 8, scalar) writeonly buffer Displacements { vec3 displacements[]; };
 // Single bindings, not an array: its index would have to be the same in all invocations.
 layout(binding = 9) uniform sampler3D volume_0;
 layout(binding = 10) uniform sampler3D volume_1;
@@ -49,6 +55,17 @@ layout(binding = 16) uniform sampler3D volume_7;
 layout(binding = 17, scalar) readonly buffer Poses { Pose poses[]; };
 layout(binding = 18, scalar) readonly buffer FieldWords { uint field_words[]; };
 layout(binding = 19, scalar) writeonly buffer Ends { vec3 ends[]; };
+layout(binding = 20, scalar) writeonly buffer Counts { uvec3 counts[]; }; // steps, samples, flags; past occluders
+#ifdef FIELD_WINDOWS
+layout(binding = 21, scalar) uniform FieldWindow0 { float field_window_0[field_window_floats]; };
+layout(binding = 22, scalar) uniform FieldWindow1 { float field_window_1[field_window_floats]; };
+layout(binding = 23, scalar) uniform FieldWindow2 { float field_window_2[field_window_floats]; };
+layout(binding = 24, scalar) uniform FieldWindow3 { float field_window_3[field_window_floats]; };
+layout(binding = 25, scalar) uniform FieldWindow4 { float field_window_4[field_window_floats]; };
+layout(binding = 26, scalar) uniform FieldWindow5 { float field_window_5[field_window_floats]; };
+layout(binding = 27, scalar) uniform FieldWindow6 { float field_window_6[field_window_floats]; };
+layout(binding = 28, scalar) uniform FieldWindow7 { float field_window_7[field_window_floats]; };
+#endif
 
 // DeformVariant of engine/gpu/deform_pipeline.h, in this order.
 layout(constant_id = 0) const uint has_occluders = 1u;
@@ -63,6 +80,7 @@ layout(constant_id = 13) const uint writes_ends = 0u;
 layout(constant_id = 14) const uint points_each = 1u;   // worked by an invocation, one after the other
 layout(constant_id = 15) const uint kept_handles = 0u;  // 0: shapes and targets are read where they are needed
 layout(constant_id = 16) const uint segments_each = 1u; // of each kept handle's shape
+layout(constant_id = 17) const uint handles_each = 1u;  // in a window of distances
 ShapeSegment kept_segments[(kept_handles + 1u) * segments_each];
 vec3 kept_targets[kept_handles + 1u];
 
@@ -111,6 +129,29 @@ uint brick_word(ShapeNode node, uint index) { return field_words[node.words + in
 vec3 target_at(uint s, uint j) {
     return kept_handles != 0u ? kept_targets[j] : targets[(s - 1u) * params.handle_count + j];
 }
+
+#ifdef FIELD_WINDOWS
+#define FIELD_IF(number, name)                                                                                         \
+    if (window == number) {                                                                                            \
+        return name[place];                                                                                            \
+    }
+
+/// Once loops are unrolled, of one window each.
+float field_at(uint j, uint i) {
+    uint window = j / handles_each;
+    uint place = j % handles_each * params.field_stride + i;
+    FIELD_IF(0u, field_window_0)
+    FIELD_IF(1u, field_window_1)
+    FIELD_IF(2u, field_window_2)
+    FIELD_IF(3u, field_window_3)
+    FIELD_IF(4u, field_window_4)
+    FIELD_IF(5u, field_window_5)
+    FIELD_IF(6u, field_window_6)
+    return field_window_7[place];
+}
+#else
+float field_at(uint j, uint i) { return fields[j * params.field_stride + i]; }
+#endif
 
 /// Of a kept shape by selection, as with occluder_at().
 float handle_weight(uint j, float t) {
@@ -176,7 +217,10 @@ void main() {
         uint i = first + p * gl_WorkGroupSize.x;
         if (i < params.point_count) {
             VertexResult result = deformed(i);
-            results[i] = result;
+            displacements[i] = result.displacement;
+            if (has_occluders != 0u) {
+                counts[i] = uvec3(result.steps, result.samples, result.flags);
+            }
             if (writes_ends != 0u) {
                 ends[i] = points[i] + result.displacement;
             }

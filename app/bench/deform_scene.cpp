@@ -93,8 +93,10 @@ DeformScene make_deform_scene(const Mesh& sphere, const DeformSceneOptions& opti
 uint64_t state_bytes(const DeformScene& scene) {
     const bool past_occluders = !scene.input.occluders.empty();
     const bool by_place = past_occluders || scene.motion.kind != MotionKind::straight;
-    const uint64_t of_point = (by_place ? sizeof(glm::vec3) : 0) + (past_occluders ? sizeof(float) : 0) +
-                              scene.input.handle_count * sizeof(float) + sizeof(kernel::f32::VertexResult);
+    const uint64_t counts = 3 * sizeof(uint32_t);
+    const uint64_t of_point = (by_place ? sizeof(glm::vec3) : 0) +
+                              (past_occluders ? sizeof(float) + counts : 0) +
+                              scene.input.handle_count * sizeof(float) + sizeof(glm::vec3);
     return of_point * scene.input.points.size();
 }
 

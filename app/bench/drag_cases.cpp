@@ -69,10 +69,12 @@ std::function<void()> steps_of(const std::shared_ptr<DragStage>& stage, Backend&
     };
 }
 
-/// Positions, distances, results, normals.
+/// Places before and after, displacements, distances, what is counted, normals.
 uint64_t step_bytes(const DragSession& session) {
-    const uint64_t of_point = 2 * sizeof(glm::vec3) + sizeof(kernel::f32::VertexResult) +
-                              session.input().handle_count * sizeof(float);
+    const uint64_t past_occluders =
+        session.input().occluders.empty() ? 0 : sizeof(float) + 3 * sizeof(uint32_t);
+    const uint64_t of_point =
+        3 * sizeof(glm::vec3) + past_occluders + session.input().handle_count * sizeof(float);
     return session.region().vertices.size() * of_point + session.normal_vertices().size() * sizeof(glm::vec3);
 }
 

@@ -17,6 +17,7 @@ struct DeformKernel : OccluderKernel {
     const real* start_distances = nullptr;
 
     const Occluder& occluder_at(uint k) const { return occluders[k]; }
+    real field_at(uint j, uint i) const { return fields[j * params.field_stride + i]; }
     real handle_weight(uint j, real t) { return curve_value(shapes[j], t); }
     real3 target_at(uint s, uint j) const { return targets[(s - 1) * params.handle_count + j]; }
 

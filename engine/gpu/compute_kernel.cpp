@@ -11,8 +11,14 @@ constexpr uint32_t granted_parameter_bytes = 128; // Vulkan's guaranteed maxPush
 constexpr size_t most_resources = 32; // lavapipe's maxPushDescriptors; desktop drivers have as many
 
 vk::DescriptorType descriptor_type(ResourceKind kind) {
-    return kind == ResourceKind::storage_buffer ? vk::DescriptorType::eStorageBuffer
-                                                : vk::DescriptorType::eCombinedImageSampler;
+    switch (kind) {
+    case ResourceKind::storage_buffer:
+        return vk::DescriptorType::eStorageBuffer;
+    case ResourceKind::uniform_buffer:
+        return vk::DescriptorType::eUniformBuffer;
+    default:
+        return vk::DescriptorType::eCombinedImageSampler;
+    }
 }
 
 vk::raii::DescriptorSetLayout make_set_layout(DeviceState& device, const std::vector<ResourceKind>& kinds) {

@@ -11,7 +11,7 @@
 
 namespace anvil {
 
-/// Bytes [offset, offset + bytes) of a storage buffer.
+/// Bytes [offset, offset + bytes) of a storage or uniform buffer.
 struct BufferRange {
     const Buffer* buffer = nullptr;
     uint64_t offset = 0;
@@ -25,7 +25,7 @@ struct BufferRange {
 
 /// What a binding holds; binding i of the shader's set 0 is entry i of the list.
 using Resource = std::variant<BufferRange, const VolumeTexture*>;
-enum class ResourceKind { storage_buffer, volume_texture };
+enum class ResourceKind { storage_buffer, volume_texture, uniform_buffer };
 
 class ComputeKernel {
   public:
@@ -34,6 +34,8 @@ class ComputeKernel {
     /// 128, which is all that every device grants.
     ComputeKernel(DeviceState& device, std::span<const uint32_t> spirv, std::vector<ResourceKind> kinds,
                   uint32_t parameter_bytes, uint32_t workgroup, std::span<const uint32_t> constants = {});
+
+    size_t resource_count() const { return kinds_.size(); }
 
     /// Dispatches at least `count` invocations, in one or two dimensions as the device's limits want it: the
     /// shader takes its index from shaders/shared/invocation.glsl and returns where it is >= count.

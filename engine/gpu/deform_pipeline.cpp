@@ -5,6 +5,8 @@
 
 #include "embedded/deform.comp.h"
 #include "embedded/deform_few.comp.h"
+#include "embedded/deform_few_windows.comp.h"
+#include "embedded/deform_windows.comp.h"
 
 #include <algorithm>
 #include <array>
@@ -18,12 +20,15 @@ constexpr size_t few_occluders = 4;
 constexpr size_t few_nodes = 8;
 constexpr uint32_t most_kept_segments = 16; // unrolled in every place that blends: compiling takes longer
 constexpr uint32_t points_on_cpu = 8;
+constexpr uint32_t blended_on_cpu = 32; // without occluders all points take alike
 
 /// In the order of the shader's bindings.
-std::vector<ResourceKind> deform_resources() {
+std::vector<ResourceKind> deform_resources(bool windows) {
     std::vector<ResourceKind> kinds(9, ResourceKind::storage_buffer);
     kinds.insert(kinds.end(), kernel::f32::MAX_VOLUMES, ResourceKind::volume_texture);
-    kinds.insert(kinds.end(), 3, ResourceKind::storage_buffer); // poses, words of adaptive fields, ends
+    // Poses, words of adaptive fields, ends, counts.
+    kinds.insert(kinds.end(), deform_resource_count - kinds.size(), ResourceKind::storage_buffer);
+    kinds.insert(kinds.end(), windows ? field_windows : 0, ResourceKind::uniform_buffer);
     return kinds;
 }
 
@@ -41,6 +46,14 @@ void keep_handles(const DeformInput& input, DeformVariant& variant) {
         variant.kept_handles = handles;
         variant.segments_each = each;
     }
+}
+
+std::span<const uint32_t> shader_of(const DeformVariant& variant) {
+    if (variant.windows) {
+        return variant.few ? std::span<const uint32_t>(deform_few_windows_comp)
+                           : std::span<const uint32_t>(deform_windows_comp);
+    }
+    return variant.few ? std::span<const uint32_t>(deform_few_comp) : std::span<const uint32_t>(deform_comp);
 }
 
 } // namespace
@@ -90,12 +103,23 @@ size_t DeformPipeline::kernel_count() {
 
 DeformVariant DeformPipeline::fitted(DeformVariant variant) const {
     if (info().type == DeviceType::cpu) {
-        variant.points_each = points_on_cpu;
+        variant.points_each = variant.occluders != 0 ? points_on_cpu : blended_on_cpu;
+        variant.handles_each = variant.kept_handles > 0 ? field_blocks(variant.kept_handles).handles_each : 0;
+        variant.windows = variant.handles_each > 0;
     } else {
         variant.kept_handles = 0;
         variant.segments_each = 1;
     }
     return variant;
+}
+
+FieldBlocks DeformPipeline::field_blocks(size_t handle_count) const {
+    if (info().type != DeviceType::cpu || handle_count == 0 || handle_count > most_kept_segments) {
+        return {uint32_t{1} << 30, 0};
+    }
+    const auto each = static_cast<uint32_t>((handle_count + field_windows - 1) / field_windows);
+    const auto numbers = static_cast<uint32_t>(field_window_bytes / sizeof(float));
+    return {numbers / each / deform_workgroup * deform_workgroup, each};
 }
 
 const ComputeKernel& DeformPipeline::kernel(const DeformVariant& wanted) {
@@ -106,18 +130,16 @@ const ComputeKernel& DeformPipeline::kernel(const DeformVariant& wanted) {
             return *kernel;
         }
     }
-    const std::array<uint32_t, 17> constants{
-        variant.occluders,    variant.volumes,     variant.paper,       variant.motion,
-        variant.steps,        variant.one_sample,  variant.shape_kinds, variant.occluder_count,
-        variant.node_count,   variant.node_counts, variant.kinds,       variant.influences,
-        variant.moving,       variant.writes_ends, variant.points_each, variant.kept_handles,
-        variant.segments_each};
-    const std::span<const uint32_t> spirv =
-        variant.few ? std::span<const uint32_t>(deform_few_comp) : std::span<const uint32_t>(deform_comp);
-    kernels_.emplace_back(variant,
-                          std::make_unique<ComputeKernel>(device_->state(), spirv, deform_resources(),
-                                                          sizeof(kernel::f32::KernelParams),
-                                                          deform_workgroup * variant.points_each, constants));
+    const std::array<uint32_t, 18> constants{
+        variant.occluders,     variant.volumes,     variant.paper,       variant.motion,
+        variant.steps,         variant.one_sample,  variant.shape_kinds, variant.occluder_count,
+        variant.node_count,    variant.node_counts, variant.kinds,       variant.influences,
+        variant.moving,        variant.writes_ends, variant.points_each, variant.kept_handles,
+        variant.segments_each, variant.handles_each};
+    kernels_.emplace_back(variant, std::make_unique<ComputeKernel>(
+                                       device_->state(), shader_of(variant),
+                                       deform_resources(variant.windows), sizeof(kernel::f32::KernelParams),
+                                       deform_workgroup * variant.points_each, constants));
     return *kernels_.back().second;
 }
 

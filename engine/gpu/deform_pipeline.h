@@ -14,6 +14,18 @@ namespace anvil {
 
 inline constexpr uint32_t deform_workgroup = 64; ///< local_size_x of shaders/deform.comp
 
+/// Of the shader's bindings: what every variant has, then the windows of distances of those for CPU devices.
+inline constexpr size_t deform_resource_count = 21;
+inline constexpr uint32_t field_windows = 8;
+inline constexpr uint64_t field_window_bytes = uint64_t{64} << 10;
+
+/// How the distances of a session's points lie in memory: in blocks of `points` points, the handles' side by
+/// side; a window of field_window_bytes holds those of `handles_each` handles. A block is worked at once.
+struct FieldBlocks {
+    uint32_t points = 0;       ///< a multiple of deform_workgroup; as many as one dispatch may have
+    uint32_t handles_each = 0; ///< 0: no windows
+};
+
 /// What a variant of the kernel is compiled for: its specialization constants, in this order. Drivers inline
 /// everything and lavapipe runs both sides of every branch: leaving out what an edit does not need makes it
 /// compile in a tenth of the time and run ten times as fast there.
@@ -36,6 +48,8 @@ struct DeformVariant {
     uint32_t points_each = 1;   ///< that one invocation works after each other
     uint32_t kept_handles = 0;  ///< handles whose shapes and targets stay in registers: all or 0
     uint32_t segments_each = 1; ///< of each kept handle's shape
+    uint32_t handles_each = 0;  ///< in a window of distances
+    bool windows = false;       ///< distances are read from windows (no constant: another shader)
     bool few = false; ///< up to 4 occluders and 8 nodes: kept in registers (no constant: another shader)
 
     bool operator==(const DeformVariant&) const = default;
@@ -56,6 +70,9 @@ class DeformPipeline {
     /// From any thread. @throws DeviceError
     const ComputeKernel& kernel(const DeformVariant& wanted);
     size_t kernel_count(); ///< compiled so far
+
+    /// How fields of so many handles are laid out on this device.
+    FieldBlocks field_blocks(size_t handle_count) const;
 
     const ComputeKernel& normals_kernel() const { return normals_kernel_; }
 

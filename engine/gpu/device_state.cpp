@@ -70,19 +70,28 @@ const vk::raii::CommandBuffer& Commands::begin() {
     wait();
     guarded("recording commands", [&] {
         buffer_.reset();
-        buffer_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+        buffer_.begin({});
+        recording_ = true;
     });
     return buffer_;
 }
 
+void Commands::end_recording() {
+    const vk::MemoryBarrier2 to_host{.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                     .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
+                                     .dstStageMask = vk::PipelineStageFlagBits2::eHost,
+                                     .dstAccessMask = vk::AccessFlagBits2::eHostRead};
+    buffer_.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &to_host});
+    buffer_.end();
+    recording_ = false;
+}
+
 void Commands::submit() {
+    wait();
     guarded("handing work to the device", [&] {
-        const vk::MemoryBarrier2 to_host{.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
-                                         .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
-                                         .dstStageMask = vk::PipelineStageFlagBits2::eHost,
-                                         .dstAccessMask = vk::AccessFlagBits2::eHostRead};
-        buffer_.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &to_host});
-        buffer_.end();
+        if (recording_) {
+            end_recording();
+        }
         const vk::CommandBufferSubmitInfo commands{.commandBuffer = *buffer_};
         const std::lock_guard lock(device_.queue_mutex);
         device_.queue.submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &commands},

@@ -83,16 +83,20 @@ class Commands {
 
     /// Waits for the previous submission, then starts a new recording.
     const vk::raii::CommandBuffer& begin();
-    /// Makes all writes visible to the host, ends the recording and hands it to the queue.
+    /// Makes all writes visible to the host, ends the recording and hands it to the queue; without a new
+    /// recording hands over the last one again, after waiting for it.
     void submit();
     /// Blocks until the submission is done; returns at once if there is none.
     void wait();
 
   private:
+    void end_recording();
+
     DeviceState& device_;
     vk::raii::CommandPool pool_{nullptr};
     vk::raii::CommandBuffer buffer_{nullptr};
     vk::raii::Fence fence_{nullptr};
+    bool recording_ = false;
     bool pending_ = false;
 };
 

@@ -10,8 +10,6 @@ namespace anvil {
 
 namespace {
 
-using kernel::f32::VertexResult;
-
 constexpr uint32_t guard_count = 64; // a whole workgroup beyond the end
 
 template <class Wide>
@@ -26,13 +24,17 @@ Buffer narrow_buffer(DeviceState& device, const std::vector<Wide>& values) {
 }
 
 /// What each point takes in the largest buffer of its chunk.
-uint32_t points_per_chunk(const DeviceState& device, size_t handle_count, uint64_t chunk_bytes) {
+uint32_t points_per_chunk(const DeviceState& device, size_t handle_count, const FieldBlocks& blocks,
+                          uint64_t chunk_bytes) {
     const uint64_t bytes = std::min<uint64_t>(chunk_bytes, device.limits.maxStorageBufferRange);
-    const uint64_t guards = guard_count * sizeof(VertexResult);
-    const uint64_t by_results = bytes > guards ? (bytes - guards) / sizeof(VertexResult) : 0;
+    const uint64_t guards = guard_count * sizeof(glm::vec3);
+    const uint64_t by_results = bytes > guards ? (bytes - guards) / sizeof(glm::vec3) : 0;
     const uint64_t by_fields = bytes / (std::max<size_t>(handle_count, 1) * sizeof(float));
     // Whole workgroups: every offset into a buffer of all points is one that devices bind.
-    const uint64_t count = std::min({by_results, by_fields, uint64_t{1} << 30}) / guard_count * guard_count;
+    uint64_t count = std::min({by_results, by_fields, uint64_t{1} << 30}) / guard_count * guard_count;
+    if (count > blocks.points) {
+        count = count / blocks.points * blocks.points;
+    }
     if (count == 0) {
         throw DeviceError("device \"" + device.info.name + "\" cannot bind buffers large enough for " +
                           std::to_string(handle_count) + " handles");
@@ -40,17 +42,33 @@ uint32_t points_per_chunk(const DeviceState& device, size_t handle_count, uint64
     return static_cast<uint32_t>(count);
 }
 
-/// The values of points [first, first + count) of each handle, side by side.
-Buffer field_buffer(DeviceState& device, const DeformInput& input, size_t first, uint32_t count) {
-    std::vector<float> values;
-    values.reserve(input.handle_count * count);
+/// Handles in one block of a field buffer: whole windows.
+size_t handles_of_block(size_t handle_count, const FieldBlocks& blocks) {
+    const size_t each = std::max(blocks.handles_each, 1U);
+    return (handle_count + each - 1) / each * each;
+}
+
+/// The values of points [first, first + count), block by block; within one those of each handle, side by
+/// side.
+Buffer field_buffer(DeviceState& device, const DeformInput& input, const FieldBlocks& blocks, size_t first,
+                    uint32_t count) {
+    const uint32_t points = blocks.handles_each > 0 ? blocks.points : count;
+    const size_t handles = handles_of_block(input.handle_count, blocks);
+    const size_t numbers = (count + points - 1) / points * points * handles;
+    std::vector<float> values(std::max<size_t>(numbers, 1));
     for (size_t handle = 0; handle < input.handle_count; ++handle) {
-        const auto begin =
-            input.fields.begin() + static_cast<std::ptrdiff_t>(handle * input.points.size() + first);
-        std::transform(begin, begin + count, std::back_inserter(values),
-                       [](double t) { return narrowed(t); });
+        const double* const begin = input.fields.data() + handle * input.points.size() + first;
+        for (size_t block = 0; block < count; block += points) {
+            const double* const from = begin + block;
+            std::transform(from, begin + std::min<size_t>(block + points, count),
+                           values.begin() + static_cast<std::ptrdiff_t>(block * handles + handle * points),
+                           [](double t) { return narrowed(t); });
+        }
     }
-    return storage_buffer(device, std::span<const float>(values));
+    const auto usage = vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformBuffer;
+    Buffer buffer(device, values.size() * sizeof(float), usage, MemoryUse::device);
+    buffer.write_all(std::span<const float>(values));
+    return buffer;
 }
 
 Buffer start_distance_buffer(DeviceState& device, const DeformInput& input, size_t first, uint32_t count) {
@@ -60,12 +78,19 @@ Buffer start_distance_buffer(DeviceState& device, const DeformInput& input, size
     return narrow_buffer(device, std::span<const double>(input.start_distances).subspan(first, count));
 }
 
+/// Three numbers of four bytes a point.
 Buffer result_buffer(DeviceState& device, uint32_t count) {
-    Buffer buffer(device, (uint64_t{count} + guard_count) * sizeof(VertexResult),
-                  vk::BufferUsageFlagBits::eStorageBuffer, MemoryUse::device);
+    const uint64_t bytes = (uint64_t{count} + guard_count) * sizeof(glm::vec3);
+    Buffer buffer(device, bytes, vk::BufferUsageFlagBits::eStorageBuffer, MemoryUse::device);
     // Guards in the place of the results too: what a kernel never wrote is told from what it did.
-    buffer.write(0, make_guards((uint64_t{count} + guard_count) * sizeof(VertexResult)));
+    buffer.write(0, make_guards(bytes));
     return buffer;
+}
+
+bool same_bytes(const kernel::f32::KernelParams& a, const kernel::f32::KernelParams& b) {
+    const auto first = std::as_bytes(std::span(&a, 1));
+    const auto second = std::as_bytes(std::span(&b, 1));
+    return std::equal(first.begin(), first.end(), second.begin());
 }
 
 /// A motion that moves nothing, to check the sizes of an input before there is a motion.
@@ -79,11 +104,12 @@ DeformMotion still(size_t handle_count) {
 
 GpuSession::GpuSession(std::shared_ptr<DeformPipeline> pipeline, std::shared_ptr<const DeformInput> input,
                        uint64_t chunk_bytes)
-    : pipeline_(std::move(pipeline)), input_(std::move(input)), commands_(pipeline_->device()) {
+    : pipeline_(std::move(pipeline)), input_(std::move(input)),
+      field_blocks_(pipeline_->field_blocks(input_->handle_count)), commands_(pipeline_->device()) {
     check_sizes(*input_, still(input_->handle_count));
     DeviceState& device = pipeline_->device();
     const size_t n = input_->points.size();
-    const uint32_t most = points_per_chunk(device, input_->handle_count, chunk_bytes);
+    const uint32_t most = points_per_chunk(device, input_->handle_count, field_blocks_, chunk_bytes);
     for (size_t first = 0; first < n; first += most) {
         chunks_.push_back(make_chunk(static_cast<uint32_t>(first),
                                      static_cast<uint32_t>(std::min<size_t>(most, n - first))));
@@ -115,9 +141,12 @@ GpuSession::Chunk GpuSession::make_chunk(uint32_t first, uint32_t count) const {
     chunk.first = first;
     chunk.count = count;
     chunk.points = narrow_buffer(device, std::span<const Vec3>(input_->points).subspan(first, count));
-    chunk.fields = field_buffer(device, *input_, first, count);
+    chunk.fields = field_buffer(device, *input_, field_blocks_, first, count);
     chunk.start_distances = start_distance_buffer(device, *input_, first, count);
-    chunk.results = result_buffer(device, count);
+    chunk.displacements = result_buffer(device, count);
+    for (uint32_t begin = 0; begin < count; begin += field_blocks_.points) {
+        chunk.blocks.push_back({begin, std::min(field_blocks_.points, count - begin), {}});
+    }
     return chunk;
 }
 
@@ -147,6 +176,11 @@ void GpuSession::take_occluders() {
         volumes_.push_back(pipeline_->texture(volume));
     }
     field_words_ = set.field_words ? pipeline_->field_words(set.field_words) : nullptr;
+    for (Chunk& chunk : chunks_) {
+        if (!set.empty() && chunk.counts.size() == 0) {
+            chunk.counts = result_buffer(pipeline_->device(), chunk.count);
+        }
+    }
     occluders_ = narrow_buffer(pipeline_->device(), set.occluders);
     nodes_ = narrow_buffer(pipeline_->device(), set.nodes);
 }
@@ -174,27 +208,46 @@ void GpuSession::refresh_occluders() {
 }
 
 void GpuSession::bind_resources() {
-    std::for_each(chunks_.begin(), chunks_.end(), [this](Chunk& chunk) { bind_resources(chunk); });
+    recorded_.reset();
+    for (Chunk& chunk : chunks_) {
+        for (Block& block : chunk.blocks) {
+            bind_resources(chunk, block);
+        }
+    }
 }
 
-void GpuSession::bind_resources(Chunk& chunk) const {
-    chunk.resources.clear(); // in the order of the shader's bindings
-    const std::initializer_list<const Buffer*> buffers = {
-        &chunk.points, &chunk.fields, &chunk.start_distances, &shapes_, &segments_, &occluders_,
-        &nodes_,       &targets_,     &chunk.results};
-    for (const Buffer* buffer : buffers) {
-        chunk.resources.emplace_back(BufferRange(*buffer));
+void GpuSession::bind_resources(const Chunk& chunk, Block& block) const {
+    std::vector<Resource>& resources = block.resources; // in the order of the shader's bindings
+    resources.clear();
+    const auto part = [&](const Buffer& buffer, uint64_t bytes_each) {
+        return BufferRange(buffer, block.first * bytes_each, block.count * bytes_each);
+    };
+    const uint64_t handles = handles_of_block(input_->handle_count, field_blocks_);
+    const uint64_t field_bytes = block.first * handles * sizeof(float);
+    resources.emplace_back(part(chunk.points, sizeof(glm::vec3)));
+    resources.emplace_back(BufferRange(chunk.fields, field_bytes, chunk.fields.size() - field_bytes));
+    resources.emplace_back(part(chunk.start_distances, sizeof(float)));
+    for (const Buffer* buffer : {&shapes_, &segments_, &occluders_, &nodes_, &targets_}) {
+        resources.emplace_back(BufferRange(*buffer));
     }
+    resources.emplace_back(part(chunk.displacements, sizeof(glm::vec3)));
     for (size_t i = 0; i < kernel::f32::MAX_VOLUMES; ++i) {
-        chunk.resources.emplace_back(i < volumes_.size() ? volumes_[i].get() : &pipeline_->no_volume());
+        resources.emplace_back(i < volumes_.size() ? volumes_[i].get() : &pipeline_->no_volume());
     }
-    chunk.resources.emplace_back(BufferRange(poses_));
-    chunk.resources.emplace_back(BufferRange(field_words_ ? *field_words_ : pipeline_->no_words()));
-    if (input_->fans.empty()) {
-        chunk.resources.emplace_back(BufferRange(chunk.results)); // not written; chunks must share none
-    } else {
-        chunk.resources.emplace_back(
-            BufferRange(ends_, chunk.first * sizeof(glm::vec3), chunk.count * sizeof(glm::vec3)));
+    resources.emplace_back(BufferRange(poses_));
+    resources.emplace_back(BufferRange(field_words_ ? *field_words_ : pipeline_->no_words()));
+    // What this variant does not write: anything that blocks do not share.
+    resources.emplace_back(input_->fans.empty()
+                               ? part(chunk.displacements, sizeof(glm::vec3))
+                               : BufferRange(ends_, (uint64_t{chunk.first} + block.first) * sizeof(glm::vec3),
+                                             block.count * sizeof(glm::vec3)));
+    resources.emplace_back(
+        part(chunk.counts.size() > 0 ? chunk.counts : chunk.displacements, sizeof(glm::vec3)));
+    const uint64_t windows = field_blocks_.handles_each > 0 ? handles / field_blocks_.handles_each : 0;
+    for (uint64_t w = 0; windows > 0 && w < field_windows; ++w) {
+        const uint64_t bytes = field_blocks_.handles_each * field_blocks_.points * sizeof(float);
+        resources.emplace_back(
+            BufferRange(chunk.fields, field_bytes + std::min(w, windows - 1) * bytes, bytes));
     }
 }
 
@@ -223,27 +276,41 @@ void GpuSession::update(const DeformMotion& motion) {
     if (!fits_handles(motion, input_->handle_count)) {
         throw InternalError("the deformation's input and motion do not fit each other");
     }
-    const vk::raii::CommandBuffer& commands = commands_.begin(); // waits: the targets are free to be written
+    commands_.wait(); // the targets are free to be written
     upload_targets(motion.targets);
     upload_poses(motion);
-    kernel::f32::KernelParams params = narrowed(kernel_params(*input_, motion));
+    const kernel::f32::KernelParams params = narrowed(kernel_params(*input_, motion));
     const ComputeKernel& kernel = pipeline_->kernel(variant_of(*input_, motion));
+    if (!recorded_ || recorded_->second != &kernel || !same_bytes(recorded_->first, params)) {
+        recorded_.reset();
+        record(params, kernel);
+        recorded_.emplace(params, &kernel);
+    }
+    counted_ = params.occluder_count > 0;
+    commands_.submit();
+    ready_ = true;
+}
+
+void GpuSession::record(const kernel::f32::KernelParams& params, const ComputeKernel& kernel) {
+    const vk::raii::CommandBuffer& commands = commands_.begin();
     guarded("recording the deformation", [&] {
         if (normals_) {
             full_barrier(commands); // what draws the last update's surface on this queue has read it
         }
+        kernel::f32::KernelParams of_block = params;
         for (const Chunk& chunk : chunks_) {
-            params.point_count = chunk.count;
-            params.field_stride = chunk.count;
-            kernel.record(commands, chunk.resources, params, chunk.count);
+            of_block.field_stride = field_blocks_.handles_each > 0 ? field_blocks_.points : chunk.count;
+            for (const Block& block : chunk.blocks) {
+                of_block.point_count = block.count;
+                const std::span<const Resource> resources = block.resources;
+                kernel.record(commands, resources.first(kernel.resource_count()), of_block, block.count);
+            }
         }
         if (normals_) {
             full_barrier(commands);
             normals_->record(commands);
         }
     });
-    commands_.submit();
-    ready_ = true;
 }
 
 void GpuSession::wait() {
@@ -255,22 +322,32 @@ std::vector<PointResult> GpuSession::download() {
     commands_.wait();
     std::vector<PointResult> results;
     results.reserve(input_->points.size());
-    std::vector<VertexResult> raw;
     for (const Chunk& chunk : chunks_) {
-        raw.resize(chunk.count + guard_count);
-        chunk.results.read(0, std::as_writable_bytes(std::span(raw)));
-        if (!guards_intact(std::as_bytes(std::span(raw).subspan(chunk.count)))) {
-            throw InternalError("the deformation kernel wrote behind the end of its results");
-        }
-        for (size_t i = 0; i < chunk.count; ++i) {
-            if (guards_intact(std::as_bytes(std::span(raw).subspan(i, 1)))) {
-                throw DeviceError("device \"" + pipeline_->device().info.name +
-                                  "\" left results unwritten; try another driver, or --device cpu");
-            }
-            results.push_back({Vec3(raw[i].displacement), raw[i].steps, raw[i].samples, raw[i].flags});
-        }
+        download(chunk, results);
     }
     return results;
+}
+
+/// Appends the chunk's.
+void GpuSession::download(const Chunk& chunk, std::vector<PointResult>& results) const {
+    std::vector<glm::vec3> displacements(chunk.count + guard_count);
+    std::vector<glm::uvec3> counts(chunk.count + guard_count, glm::uvec3(0));
+    chunk.displacements.read(0, std::as_writable_bytes(std::span(displacements)));
+    bool intact = guards_intact(std::as_bytes(std::span(displacements).subspan(chunk.count)));
+    if (counted_) {
+        chunk.counts.read(0, std::as_writable_bytes(std::span(counts)));
+        intact = intact && guards_intact(std::as_bytes(std::span(counts).subspan(chunk.count)));
+    }
+    if (!intact) {
+        throw InternalError("the deformation kernel wrote behind the end of its results");
+    }
+    for (size_t i = 0; i < chunk.count; ++i) {
+        if (guards_intact(std::as_bytes(std::span(displacements).subspan(i, 1)))) {
+            throw DeviceError("device \"" + pipeline_->device().info.name +
+                              "\" left results unwritten; try another driver, or --device cpu");
+        }
+        results.push_back({Vec3(displacements[i]), counts[i].x, counts[i].y, counts[i].z});
+    }
 }
 
 std::vector<Vec3> GpuSession::download_normals() {

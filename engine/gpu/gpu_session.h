@@ -28,15 +28,22 @@ class GpuSession final : public DeformSession {
     std::optional<DeviceSurface> surface(const Device& device) const;
 
   private:
+    /// Consecutive points of a chunk that one dispatch works.
+    struct Block {
+        uint32_t first = 0; ///< in the chunk
+        uint32_t count = 0;
+        std::vector<Resource> resources;
+    };
     /// Consecutive points with buffers of their own, so that no binding exceeds a device's limit.
     struct Chunk {
         uint32_t first = 0;
         uint32_t count = 0;
         Buffer points;
-        Buffer fields;
+        Buffer fields; ///< block by block
         Buffer start_distances;
-        Buffer results; ///< `count` entries, then guards
-        std::vector<Resource> resources;
+        Buffer displacements; ///< three floats a point, tightly packed, then guards
+        Buffer counts;        ///< steps, samples, flags of each point; none before there are occluders
+        std::vector<Block> blocks;
     };
 
     Chunk make_chunk(uint32_t first, uint32_t count) const;
@@ -44,13 +51,16 @@ class GpuSession final : public DeformSession {
     void take_shapes();
     void take_occluders();
     void bind_resources();
-    void bind_resources(Chunk& chunk) const;
+    void bind_resources(const Chunk& chunk, Block& block) const;
+    void download(const Chunk& chunk, std::vector<PointResult>& results) const;
     void check_ready() const;
+    void record(const kernel::f32::KernelParams& params, const ComputeKernel& kernel);
     void upload_targets(const std::vector<Vec3>& targets);
     void upload_poses(const DeformMotion& motion);
 
     std::shared_ptr<DeformPipeline> pipeline_;
     std::shared_ptr<const DeformInput> input_;
+    FieldBlocks field_blocks_;
     std::vector<std::shared_ptr<const VolumeTexture>> volumes_;
     std::shared_ptr<const Buffer> field_words_; ///< empty: no adaptive field
     Buffer shapes_;
@@ -64,6 +74,9 @@ class GpuSession final : public DeformSession {
     Buffer ends_; ///< where the points are, then the rim of the fans; none without fans
     std::optional<NormalsPass> normals_;
     Commands commands_;
+    /// What the commands do as they are recorded; none: resources have changed since.
+    std::optional<std::pair<kernel::f32::KernelParams, const ComputeKernel*>> recorded_;
+    bool counted_ = false; ///< the last update was past occluders
     bool ready_ = false;
 };
 

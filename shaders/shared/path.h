@@ -1,7 +1,8 @@
 // The undeflected path of a point and the poses of occluders along it, alike in C++ and GLSL. The includer
-// provides, beside what occluder.h and shape_function.h need, `params`, `fields`, `shapes`, `targets`,
-// `poses` (sample by sample, params.occluder_count each) and `Occluder occluder_at(uint k)` (occluders[k] for
-// a k that differs between vertices), and for C++ the macros INOUT and PRECISE.
+// provides, beside what occluder.h and shape_function.h need, `params`, `real field_at(uint j, uint i)`
+// (distance of point i from handle j), `real handle_weight(uint j, real t)`, `real3 target_at(uint s, uint
+// j)`, `poses` (sample by sample, params.occluder_count each) and `Occluder occluder_at(uint k)`
+// (occluders[k] for a k that differs between vertices), and for C++ the macros INOUT and PRECISE.
 
 struct Path {
     real3 from; // displacement (straight, chord) or angle in x (arc) at the segment's ends
@@ -50,7 +51,7 @@ real3 blended(uint i, uint s) {
         return sum;
     }
     for (uint j = 0u; j < params.handle_count; ++j) {
-        real weight = handle_weight(j, fields[j * params.field_stride + i]);
+        real weight = handle_weight(j, field_at(j, i));
         PRECISE real3 term = weight * target_at(s, j) - lost;
         PRECISE real3 next = sum + term;
         lost = (next - sum) - term;

@@ -5,7 +5,9 @@
 #include "engine/gpu/selftest.h"
 #include "tests/gpu/gpu_test.h"
 
+#include <cmath>
 #include <future>
+#include <random>
 
 using namespace anvil;
 
@@ -112,6 +114,55 @@ TEST_CASE("work split into many chunks gives the same bits") {
     for (const char* name : {"blend, 16 handles", "torus, soft", "sampled field"}) {
         const SelftestCase test = case_named(name);
         CHECK(same_bits(run(*whole, test), run(*split, test)));
+    }
+}
+
+namespace {
+
+/// Blending alone: `handles` straight falloffs of distances that differ from point to point.
+DeformInput blend_of(size_t points, size_t handles) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> any(0, 1.1);
+    DeformInput input;
+    input.points.assign(points, Vec3(0));
+    input.handle_count = handles;
+    input.segments = {{0, 1, -1, 0, 0}};
+    input.shapes.assign(handles, {0, 1});
+    input.fields.resize(points * handles);
+    std::generate(input.fields.begin(), input.fields.end(), [&] { return any(random); });
+    return input;
+}
+
+} // namespace
+
+TEST_CASE(
+    "blends of more points than a block holds are the sums of weighted targets, for any number of handles") {
+    const CheckedDevice device;
+    const auto backend = make_gpu_backend(device.shared());
+    for (const size_t handles : {1, 3, 10, 16, 17}) {
+        const size_t points =
+            40'001; // two blocks and a part of a third with 8 handles and fewer, five with 16
+        const DeformInput input = blend_of(points, handles);
+        DeformMotion motion;
+        for (size_t j = 0; j < handles; ++j) {
+            motion.targets.emplace_back(1 + 0.1 * static_cast<double>(j), -1, 0.5 * static_cast<double>(j));
+        }
+        const auto session = backend->prepare(input);
+        session->update(motion);
+        const std::vector<PointResult> results = session->download();
+        REQUIRE(results.size() == points);
+        double worst = 0;
+        for (size_t i = 0; i < points; ++i) {
+            Vec3 sum(0);
+            for (size_t j = 0; j < handles; ++j) {
+                sum += std::max(0.0, 1 - input.fields[j * points + i]) * motion.targets[j];
+            }
+            REQUIRE(std::isfinite(glm::length(results[i].displacement)));
+            worst = std::max(worst, glm::length(results[i].displacement - sum));
+        }
+        // Each weight is off by the rounding of its distance and of its own, 2^-24 each, and the targets add
+        // up to at most 16 * 10.
+        CHECK(worst <= 160 * 2 * std::ldexp(1.0, -24));
     }
 }
 
