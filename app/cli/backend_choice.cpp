@@ -1,6 +1,7 @@
 #include "app/cli/backend_choice.h"
 
 #include "engine/core/error.h"
+#include "engine/deform/lasting_backend.h"
 #include "engine/gpu/gpu_backend.h"
 
 #include <algorithm>
@@ -37,12 +38,26 @@ ChosenBackend open_backend(const std::string& device) {
     return {std::move(backend), std::move(opened)};
 }
 
+ChosenBackend open_lasting(const std::string& device, Log& log) {
+    try {
+        ChosenBackend opened = open_backend(device);
+        opened.backend = std::make_unique<LastingBackend>(std::move(opened.backend), log);
+        return opened;
+    } catch (const DeviceError& error) {
+        log.warn(std::string(error.what()) + "; the CPU is used");
+        return open_backend("cpu");
+    }
+}
+
 ChosenBackend choose_backend(const std::string& device, Log& log) {
     if (device != "auto") {
         return open_backend(device);
     }
     const std::optional<size_t> chosen = automatic_device(devices_or_none(log));
-    return open_backend(chosen ? std::to_string(*chosen) : "cpu");
+    if (!chosen) {
+        return open_backend("cpu");
+    }
+    return open_lasting(std::to_string(*chosen), log);
 }
 
 void check_validation(const std::shared_ptr<Device>& device) {

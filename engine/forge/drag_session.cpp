@@ -1,7 +1,5 @@
 #include "engine/forge/drag_session.h"
 
-#include "engine/core/error.h"
-
 namespace anvil {
 
 namespace {
@@ -35,27 +33,8 @@ bool same_shapes(const Edit& a, const Edit& b) {
 
 DragSession::DragSession(DragScene& scene, const EditOccluders& occluders, Backend& backend, const Edit& edit,
                          Log& log)
-    : scene_(scene), marches_(scene.surface()), backend_(&backend), log_(log) {
+    : scene_(scene), marches_(scene.surface()), backend_(backend, log), log_(log) {
     update(edit, occluders);
-}
-
-template <class Work>
-auto DragSession::on_device(const Work& work) {
-    try {
-        return work();
-    } catch (const DeviceError& error) {
-        if (fallback_) {
-            throw;
-        }
-        log_.warn(std::string(error.what()) + "; the edit goes on with the CPU");
-        fallback_ = make_cpu_backend();
-        backend_ = fallback_.get();
-        if (now_.session) {
-            now_.session = backend_->prepare(now_.input);
-            now_.session->update(now_.motion.motion);
-        }
-        return work();
-    }
 }
 
 std::optional<std::vector<double>> DragSession::radii_within_measured(const Edit& edit) const {
@@ -88,7 +67,7 @@ void DragSession::update(const Edit& edit, const EditOccluders& occluders) {
     } else {
         change(edit, occluders);
     }
-    on_device([this] { now_.session->update(now_.motion.motion); });
+    now_.session->update(now_.motion.motion);
     ++work_.updates;
 }
 
@@ -101,6 +80,7 @@ DragSession::Stage DragSession::opened(const Edit& edit, const EditOccluders& oc
     stage.region = region_within(edit, *stage.measured, radii, scene_.numbers());
     OccluderSet set = set_for(edit, occluders, stage.region);
     stage.uses = occluders.uses_of(edit);
+    stage.models = occluders.models_of(stage.uses);
     stage.motion = motion_of(edit, stage.region, set);
     const Vec3& origin = scene_.frame().origin;
     stage.input =
@@ -109,38 +89,43 @@ DragSession::Stage DragSession::opened(const Edit& edit, const EditOccluders& oc
                                   scene_.positions(), origin, scene_.numbers());
     stage.input->fans = std::move(fans.fans);
     stage.normal_vertices = std::move(fans.vertices);
-    on_device([&] { stage.session = backend_->prepare(stage.input); });
+    stage.session = backend_.prepare(stage.input);
     ++work_.regions;
     return stage;
 }
 
 void DragSession::change(const Edit& edit, const EditOccluders& occluders) {
-    OccluderSet set = set_for(edit, occluders, now_.region);
-    std::vector<ShapeFunction> shapes = shapes_of(edit);
-    EditMotion motion;
-    std::swap(shapes, now_.region.shapes);
+    std::vector<OccluderUse> uses = occluders.uses_of(edit);
+    OccluderModels models = occluders.models_of(uses);
+    const bool occluders_stand = uses == now_.uses && models == now_.models &&
+                                 (!now_.input->occluders.moves() || edit.amount == now_.edit.amount);
+    OccluderSet set = occluders_stand ? OccluderSet{} : set_for(edit, occluders, now_.region);
+    const bool shapes_stand = same_shapes(edit, now_.edit);
+    std::vector<ShapeFunction> shapes = shapes_stand ? std::vector<ShapeFunction>{} : shapes_of(edit);
+    const auto exchange_shapes = [&] {
+        if (!shapes_stand) {
+            std::swap(shapes, now_.region.shapes);
+        }
+    };
+    exchange_shapes();
     try {
-        motion = motion_of(edit, now_.region, set);
+        now_.motion = motion_of(edit, now_.region, occluders_stand ? now_.input->occluders : set);
     } catch (...) {
-        std::swap(shapes, now_.region.shapes);
+        exchange_shapes();
         throw;
     }
-    std::vector<OccluderUse> uses = occluders.uses_of(edit);
-    const bool occluders_stand = uses == now_.uses && set.exact == now_.input->occluders.exact &&
-                                 (!set.moves() || edit.amount == now_.edit.amount);
-    const bool shapes_stand = same_shapes(edit, now_.edit);
     now_.edit = edit;
-    now_.uses = std::move(uses);
-    now_.motion = std::move(motion);
     if (!shapes_stand) {
         set_shapes(now_.region.shapes, *now_.input);
-        on_device([this] { now_.session->refresh_shapes(); });
+        now_.session->refresh_shapes();
         ++work_.shapes;
     }
     if (!occluders_stand) {
+        now_.uses = std::move(uses);
+        now_.models = std::move(models);
         now_.input->occluders = std::move(set);
         find_start_distances(*now_.input);
-        on_device([this] { now_.session->refresh_occluders(); });
+        now_.session->refresh_occluders();
         ++work_.occluders;
     }
 }
@@ -157,11 +142,11 @@ EditMotion DragSession::motion_of(const Edit& edit, const EditRegion& region, co
 }
 
 void DragSession::wait() {
-    on_device([this] { now_.session->wait(); });
+    now_.session->wait();
 }
 
 std::vector<Vec3> DragSession::positions() {
-    const std::vector<PointResult> results = on_device([this] { return now_.session->download(); });
+    const std::vector<PointResult> results = now_.session->download();
     std::vector<Vec3> places;
     places.reserve(results.size());
     for (size_t i = 0; i < results.size(); ++i) {
@@ -171,7 +156,7 @@ std::vector<Vec3> DragSession::positions() {
 }
 
 std::vector<Vec3> DragSession::normals() {
-    return on_device([this] { return now_.session->download_normals(); });
+    return now_.session->download_normals();
 }
 
 } // namespace anvil

@@ -1,7 +1,7 @@
 // One edit while it is dragged: what does not change stays where it is computed.
 #pragma once
 
-#include "engine/deform/backend.h"
+#include "engine/deform/lasting_backend.h"
 #include "engine/forge/drag_scene.h"
 #include "engine/forge/edit_motion.h"
 #include "engine/forge/edit_occluders.h"
@@ -53,9 +53,9 @@ class DragSession {
     const MarchWork& march_work() const { return marches_.work(); }
     /// The vertices with a normal: the region, then those around it.
     const std::vector<uint32_t>& normal_vertices() const { return now_.normal_vertices; }
-    std::string device_name() const { return backend_->device_name(); }
-    /// What the region is on now, for drawing; another one after a change of the region or a device's
-    /// failure.
+    std::string device_name() const { return backend_.device_name(); }
+    /// What the region is on now, for drawing; another one after a change of the region. Once the device has
+    /// failed it is on none.
     std::shared_ptr<const DeformSession> session() const { return now_.session; }
 
     // Read back; waits for the last update.
@@ -74,6 +74,7 @@ class DragSession {
         std::vector<uint32_t> normal_vertices;
         std::shared_ptr<DeformInput> input;
         std::vector<OccluderUse> uses;
+        OccluderModels models; ///< of the uses
         EditMotion motion;
         std::shared_ptr<DeformSession> session;
     };
@@ -85,13 +86,10 @@ class DragSession {
     void change(const Edit& edit, const EditOccluders& occluders);
     OccluderSet set_for(const Edit& edit, const EditOccluders& occluders, const EditRegion& region) const;
     EditMotion motion_of(const Edit& edit, const EditRegion& region, const OccluderSet& set);
-    template <class Work>
-    auto on_device(const Work& work);
 
     DragScene& scene_;
     KeptMarches marches_;
-    Backend* backend_;
-    std::unique_ptr<Backend> fallback_; ///< once the device has failed
+    LastingBackend backend_;
     Log& log_;
     Stage now_;
     DragWork work_;

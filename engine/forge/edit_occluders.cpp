@@ -62,6 +62,15 @@ EditOccluders::EditOccluders(const Recipe& recipe, Log& log, Progress& progress,
     }
 }
 
+OccluderModels EditOccluders::models_of(const std::vector<OccluderUse>& uses) const {
+    OccluderModels models;
+    models.reserve(uses.size());
+    for (const OccluderUse& use : uses) {
+        models.push_back(models_.at(use.name));
+    }
+    return models;
+}
+
 OccluderSet EditOccluders::set_for(const Edit& edit, const OccluderScale& scale,
                                    const std::string& place) const {
     OccluderSet set;

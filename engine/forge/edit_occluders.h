@@ -37,6 +37,8 @@ class KeptModels {
     std::vector<Kept> kept_;
 };
 
+using OccluderModels = std::vector<std::shared_ptr<const OccluderModel>>;
+
 class EditOccluders {
   public:
     /// Builds the models of all occluders that are not among the kept ones, and bakes those that the recipe
@@ -51,6 +53,9 @@ class EditOccluders {
 
     /// Which ones an edit uses, everything filled in.
     std::vector<OccluderUse> uses_of(const Edit& edit) const { return occluders_of(recipe_, edit); }
+
+    /// The models of these uses: the same ones as long as shapes and fields stay.
+    OccluderModels models_of(const std::vector<OccluderUse>& uses) const;
 
   private:
     const Recipe& recipe_;

@@ -61,8 +61,6 @@ SurfaceVersion after_edits(SurfaceVersion version, const Recipe& recipe, Backend
 ForgeResult forge(const Mesh& mesh, const Recipe& recipe, Backend& backend, Log& log, Progress& progress,
                   const FileCache* cache) {
     ForgeResult result;
-    result.report.device = backend.device_name();
-    result.report.driver = backend.driver_name();
     SurfaceVersion version = first_version({std::shared_ptr<void>(), &mesh}); // not ours: outlives the call
     try {
         version = after_edits(std::move(version), recipe, backend, log, progress, cache, result.report);
@@ -70,6 +68,8 @@ ForgeResult forge(const Mesh& mesh, const Recipe& recipe, Backend& backend, Log&
         throw InputError(recipe.file + ": " + error.what());
     }
     progress.report("forge", 1);
+    result.report.device = backend.device_name(); // by now: it may have changed to another one
+    result.report.driver = backend.driver_name();
     result.report.vertices = version.mesh->vertex_count();
     result.report.faces = version.mesh->polygon_count();
     result.report.warnings = log.warnings;

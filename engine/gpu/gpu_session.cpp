@@ -1,6 +1,7 @@
 #include "engine/gpu/gpu_session.h"
 
 #include "engine/core/error.h"
+#include "engine/deform/lasting_backend.h"
 #include "engine/deform/narrow.h"
 #include "engine/gpu/guards.h"
 
@@ -365,7 +366,7 @@ std::optional<DeviceSurface> GpuSession::surface(const Device& device) const {
 }
 
 std::optional<DeviceSurface> device_surface(const DeformSession& session, const Device& device) {
-    const auto* on_gpu = dynamic_cast<const GpuSession*>(&session);
+    const auto* on_gpu = dynamic_cast<const GpuSession*>(&computing(session));
     return on_gpu != nullptr ? on_gpu->surface(device) : std::nullopt;
 }
 
