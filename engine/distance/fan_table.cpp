@@ -1,5 +1,6 @@
 #include "engine/distance/fan_table.h"
 
+#include "engine/core/large_pages.h"
 #include "engine/core/parallel_for.h"
 #include "engine/distance/angle_functions.h"
 #include "engine/distance/unfold.h"
@@ -34,8 +35,10 @@ std::array<Corner, 3> corners_between(const std::array<double, 3>& length) {
 class Builder {
   public:
     Builder(const IntrinsicGraph& graph, std::span<const DirectionOrigin> origins)
-        : graph_(graph), origins_(origins), shapes_(graph.vertex_count()),
-          corners_(graph.corner_vertex.size()), directions_(graph.corner_vertex.size()) {}
+        : graph_(graph), origins_(origins), shapes_(graph.vertex_count()) {
+        fill_large(corners_, graph.corner_vertex.size());
+        fill_large(directions_, graph.corner_vertex.size());
+    }
 
     FanTable build() {
         const size_t count = graph_.vertex_count();
@@ -59,8 +62,7 @@ class Builder {
             place += spoke_count(static_cast<uint32_t>(v));
         }
         table_.fans[count].first_spoke = place;
-        table_.spokes.reserve(with_room(place));
-        table_.spokes.resize(place);
+        fill_large(table_.spokes, place, with_room(place));
         parallel_for(count, 1 << 12, [&](size_t begin, size_t end) {
             for (size_t v = begin; v < end; ++v) {
                 fill(static_cast<uint32_t>(v));

@@ -1,5 +1,6 @@
 #include "engine/distance/intrinsic_delaunay.h"
 
+#include "engine/core/large_pages.h"
 #include "engine/core/parallel_for.h"
 #include "engine/distance/unfold.h"
 
@@ -200,8 +201,8 @@ class Flipper {
 } // namespace
 
 IntrinsicGraph by_lengths(const TriangleGraph& graph) {
-    IntrinsicGraph result{static_cast<const TriangleLinks&>(graph),
-                          std::vector<double>(graph.corner_vertex.size())};
+    IntrinsicGraph result{static_cast<const TriangleLinks&>(graph), {}};
+    fill_large(result.side_length, graph.corner_vertex.size());
     parallel_for(graph.corner_vertex.size(), 1 << 14, [&](size_t begin, size_t end) {
         for (size_t side = begin; side < end; ++side) {
             result.side_length[side] = graph.length(static_cast<uint32_t>(side));

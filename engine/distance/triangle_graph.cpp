@@ -1,5 +1,6 @@
 #include "engine/distance/triangle_graph.h"
 
+#include "engine/core/large_pages.h"
 #include "engine/core/parallel_for.h"
 
 #include <mutex>
@@ -17,8 +18,7 @@ double power_of_two_near(double extent) {
 
 void set_places(TriangleGraph& graph, std::span<const Vec3> positions) {
     const double inverse = 1 / graph.unit;
-    graph.places.reserve(with_room(positions.size()));
-    graph.places.resize(positions.size());
+    fill_large(graph.places, positions.size(), with_room(positions.size()));
     parallel_for(positions.size(), 1 << 14, [&](size_t begin, size_t end) {
         for (size_t v = begin; v < end; ++v) {
             graph.places[v] = positions[graph.numbering.mesh_vertex[v]] * inverse;
@@ -97,8 +97,7 @@ void link_vertices(TriangleLinks& graph, size_t vertex_count) {
     for (size_t v = 0; v < vertex_count; ++v) {
         begin[v + 1] += begin[v];
     }
-    graph.leaving.reserve(with_room(graph.corner_vertex.size()));
-    graph.leaving.resize(graph.corner_vertex.size());
+    fill_large(graph.leaving, graph.corner_vertex.size(), with_room(graph.corner_vertex.size()));
     std::vector<uint32_t> place(begin.begin(), begin.end() - 1);
     for (uint32_t side = 0; side < graph.corner_vertex.size(); ++side) {
         graph.leaving[place[graph.corner_vertex[side]]++] = side;
@@ -196,8 +195,7 @@ TriangleGraph make_triangle_graph(std::span<const Triangle> triangles, std::span
     TriangleGraph graph;
     graph.numbering = std::move(numbering);
     graph.unit = unit_of(positions);
-    graph.corner_vertex.reserve(with_room(3 * triangles.size()));
-    graph.corner_vertex.resize(3 * triangles.size());
+    fill_large(graph.corner_vertex, 3 * triangles.size(), with_room(3 * triangles.size()));
     for (size_t t = 0; t < triangles.size(); ++t) {
         for (size_t k = 0; k < 3; ++k) {
             graph.corner_vertex[3 * graph.numbering.new_triangle[t] + k] =
