@@ -9,38 +9,20 @@
 #include "engine/core/parallel_for.h"
 #include "engine/deform/backend.h"
 #include "engine/deform/contact_finish.h"
-#include "engine/mesh/mesh_reader.h"
-#include "engine/mesh/sample_shapes.h"
+#include "tests/bench/bench_mesh.h"
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <mutex>
-#include <numbers>
 #include <numeric>
 
 using namespace anvil;
+using namespace anvil::bench;
 
 namespace {
-
-/// Van Oosterom and Strackee's solid angle, over 4 pi.
-double winding(const Mesh& mesh, const Vec3& p) {
-    double sum = 0;
-    for (const Triangle& t : mesh.triangles) {
-        const Vec3 a = mesh.positions[t[0]] - p;
-        const Vec3 b = mesh.positions[t[1]] - p;
-        const Vec3 c = mesh.positions[t[2]] - p;
-        const double x = glm::length(a);
-        const double y = glm::length(b);
-        const double z = glm::length(c);
-        sum += std::atan2(glm::dot(a, glm::cross(b, c)),
-                          x * y * z + glm::dot(a, b) * z + glm::dot(b, c) * x + glm::dot(c, a) * y);
-    }
-    return sum / (2 * std::numbers::pi);
-}
 
 double segment_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
     const double squared = glm::dot(b - a, b - a);

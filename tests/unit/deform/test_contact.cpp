@@ -82,14 +82,15 @@ void check_that_none_entered(const Scene& scene, Backend& backend) {
 
 TEST_CASE("nothing passes a thin plate, baked or exact, from afar or from its surface") {
     const auto cpu = make_cpu_backend();
-    for (uint32_t resolution : {64U, 128U}) {
-        const double voxel = 1.6 / (resolution - 7);
+    for (const Field& field : {Field{FieldKind::dense, 64}, Field{FieldKind::dense, 128},
+                               Field{FieldKind::adaptive, 64}, Field{FieldKind::adaptive, 128}}) {
+        const double voxel = 1.6 / (field.resolution - 7);
         for (double thickness : {0.25, 1.0, 3.0}) {
             for (bool band : {false, true}) {
-                const Scene scene =
-                    plate_scene(thickness * voxel, {FieldKind::dense, resolution}, band, voxel);
+                const Scene scene = plate_scene(thickness * voxel, field, band, voxel);
                 const SceneResult result = run_scene(scene, *cpu, true);
-                INFO("voxels " << thickness << " at " << resolution
+                INFO("voxels " << thickness << " at " << field.resolution
+                               << (field.kind == FieldKind::dense ? " dense" : " adaptive")
                                << (band ? " from the band" : " from afar"));
                 for (const Vec3& end : result.ends) {
                     REQUIRE(end.y >= 0.5 * thickness * voxel - 1e-6);
