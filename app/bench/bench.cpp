@@ -35,7 +35,8 @@ SamplingEffort effort_of(const BenchOptions& options) {
 
 } // namespace
 
-BenchRun run_bench(Backend& tested, const BenchOptions& options, Progress& progress,
+BenchRun run_bench(Backend& tested, const std::function<uint64_t()>& device_memory,
+                   const BenchOptions& options, Progress& progress,
                    const std::function<void(const BenchResult&)>& heard) {
     Workshop workshop(tested, progress);
     std::vector<BenchCase> cases = all_cases(workshop, options.extent);
@@ -43,7 +44,7 @@ BenchRun run_bench(Backend& tested, const BenchOptions& options, Progress& progr
     BenchRun run{this_machine(tested), options.extent.quick, options.clock, {}};
     for (size_t i = 0; i < cases.size(); ++i) {
         progress.report("bench " + cases[i].name, static_cast<double>(i) / static_cast<double>(cases.size()));
-        run.results.push_back(run_case(cases[i], effort_of(options)));
+        run.results.push_back(run_case(cases[i], effort_of(options), device_memory));
         heard(run.results.back());
     }
     return run;

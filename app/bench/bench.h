@@ -14,9 +14,10 @@ struct BenchOptions {
     std::string only; ///< cases whose name contains this; empty: all
 };
 
-/// `heard` is given every result as it comes. @throws InputError if no case has `only` in its name,
-/// Cancelled.
-BenchRun run_bench(Backend& tested, const BenchOptions& options, Progress& progress,
+/// `device_memory`: bytes of the tested device's memory in use. `heard` is given every result as it comes.
+/// @throws InputError if no case has `only` in its name, Cancelled.
+BenchRun run_bench(Backend& tested, const std::function<uint64_t()>& device_memory,
+                   const BenchOptions& options, Progress& progress,
                    const std::function<void(const BenchResult&)>& heard);
 
 } // namespace anvil

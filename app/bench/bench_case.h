@@ -38,9 +38,12 @@ struct BenchResult {
     size_t region = 0;
     Timing timing;
     uint64_t bytes = 0;
+    uint64_t device_bytes = 0; ///< of the device's memory that the case holds, its yardsticks on it included
     std::vector<std::pair<std::string, double>> ratios; ///< by yardstick: median over the yardstick's median
 };
 
-BenchResult run_case(const BenchCase& bench, const SamplingEffort& effort);
+/// `device_memory`: bytes of it in use now.
+BenchResult run_case(const BenchCase& bench, const SamplingEffort& effort,
+                     const std::function<uint64_t()>& device_memory);
 
 } // namespace anvil

@@ -13,6 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr uint64_t shown_memory = uint64_t{64} << 20; // bytes; smaller cases fit anywhere
+
 std::string left(std::string text, size_t width) {
     text.resize(std::max(width, text.size() + 1), ' ');
     return text;
@@ -64,6 +66,7 @@ Json case_json(const BenchResult& r) {
             {"min_s", r.timing.min_s},
             {"max_s", r.timing.max_s},
             {"bytes", r.bytes},
+            {"device_bytes", r.device_bytes},
             {"ratio", ratio}};
 }
 
@@ -92,6 +95,9 @@ std::string table_row(const BenchResult& r) {
     std::string ratios;
     for (const auto& [yardstick, number] : r.ratios) {
         ratios += (ratios.empty() ? "" : "  ") + yardstick + " " + short_text(number);
+    }
+    if (r.device_bytes >= shown_memory) {
+        ratios += "  (" + std::to_string(r.device_bytes >> 20) + " MiB on the device)";
     }
     return row_of(r.name, std::to_string(r.vertices), std::to_string(r.region),
                   short_text(1e3 * r.timing.median_s), short_text(1e3 * r.timing.min_s),

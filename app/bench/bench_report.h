@@ -17,11 +17,11 @@ struct BenchRun {
 
 /// What stands above the rows: machine and column names.
 std::string table_head(const Machine& machine);
-/// One line: milliseconds, gigabytes a second, and the ratios.
+/// One line: milliseconds, gigabytes a second, the ratios, and the device's memory where it is much.
 std::string table_row(const BenchResult& result);
 
 /// {machine{}, quick, clock, cases[]: {name, vertices, region, samples, median_s, min_s, max_s, bytes,
-/// ratio{yardstick: number}}}
+/// device_bytes, ratio{yardstick: number}}}
 std::string bench_json(const BenchRun& run);
 
 /// Reads what bench_json() wrote, as far as a comparison needs it.

@@ -18,8 +18,8 @@ struct ChosenBackend {
     std::shared_ptr<Device> device; ///< nullptr for `cpu`
 };
 
-/// What `auto` takes of these devices: a GPU's index, or nothing for the CPU back end, which on a CPU is to be
-/// preferred to Vulkan: it computes in double, and compiles no kernels first (lavapipe: 0.3 to 1 s).
+/// What `auto` takes of these devices: a GPU's index, or nothing for the CPU back end, which on a CPU is to
+/// be preferred to Vulkan: it computes in double, and compiles no kernels first (lavapipe: 0.3 to 1 s).
 std::optional<size_t> automatic_device(const std::vector<DeviceInfo>& devices);
 
 /// list_devices(), or none with a warning where there is no Vulkan.

@@ -44,8 +44,9 @@ void run(const Options& options, CommandContext& context) {
     }
     const ChosenBackend tested = backend_to_measure(options.device, context.log);
     bool first = true;
-    const BenchRun now =
-        run_bench(*tested.backend, options.bench, context.progress, [&](const BenchResult& result) {
+    const auto device_memory = [&tested] { return tested.device ? tested.device->memory_in_use() : 0; };
+    const BenchRun now = run_bench(
+        *tested.backend, device_memory, options.bench, context.progress, [&](const BenchResult& result) {
             clear_progress_bar();
             write_text("", (first ? table_head(this_machine(*tested.backend)) : "") + table_row(result));
             first = false;

@@ -55,11 +55,11 @@ Buffer::Buffer(DeviceState& device, uint64_t bytes, vk::BufferUsageFlags usage, 
         const vk::MemoryRequirements needs = buffer_.getMemoryRequirements();
         const uint32_t type =
             device.memory_type(needs.memoryTypeBits, required_flags(use), preferred_flags(use));
-        memory_ = device.device.allocateMemory({.allocationSize = needs.size, .memoryTypeIndex = type});
-        buffer_.bindMemory(*memory_, 0);
+        memory_ = HeldMemory(device, needs.size, type);
+        buffer_.bindMemory(*memory_.memory(), 0);
         const vk::MemoryPropertyFlags flags = device.memory.memoryTypes[type].propertyFlags;
         if ((flags & Memory::eHostVisible) && (flags & Memory::eHostCoherent)) {
-            mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
+            mapped_ = static_cast<std::byte*>(memory_.memory().mapMemory(0, VK_WHOLE_SIZE));
             cached_ = static_cast<bool>(flags & Memory::eHostCached);
         }
     });

@@ -1,7 +1,7 @@
 // A Vulkan buffer with its memory; internal to engine/gpu and app/viewer.
 #pragma once
 
-#include "engine/gpu/device_state.h"
+#include "engine/gpu/held_memory.h"
 
 #include <cstddef>
 #include <span>
@@ -44,7 +44,7 @@ class Buffer {
 
     DeviceState* device_ = nullptr;
     uint64_t bytes_ = 0;
-    vk::raii::DeviceMemory memory_{nullptr}; ///< outlives the buffer bound to it
+    HeldMemory memory_; ///< outlives the buffer bound to it
     vk::raii::Buffer buffer_{nullptr};
     std::byte* mapped_ = nullptr;
     bool cached_ = false;

@@ -123,6 +123,10 @@ const DeviceInfo& Device::info() const {
     return state_->info;
 }
 
+uint64_t Device::memory_in_use() const {
+    return state_->memory_in_use;
+}
+
 VulkanHandles Device::handles() const {
     return {*state_->instance, *state_->physical, *state_->device, *state_->queue, state_->queue_family};
 }

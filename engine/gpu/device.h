@@ -67,6 +67,7 @@ class Device {
 
     const DeviceInfo& info() const;
     VulkanHandles handles() const;
+    uint64_t memory_in_use() const; ///< bytes of all buffers and volume textures made from it
 
     /// The validation layer's messages since the last call, each as one text; empty is the healthy state.
     std::vector<std::string> take_validation_messages();

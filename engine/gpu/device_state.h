@@ -6,6 +6,7 @@
 #include "engine/gpu/device.h"
 #include "engine/gpu/vulkan.h"
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -35,6 +36,7 @@ struct DeviceState {
     DeviceInfo info;
     vk::PhysicalDeviceLimits limits;
     vk::PhysicalDeviceMemoryProperties memory;
+    std::atomic<uint64_t> memory_in_use{0}; ///< bytes of buffers and volume textures
 
     DeviceState() = default;
     ~DeviceState();

@@ -71,11 +71,10 @@ void VolumeTexture::make_image(DeviceState& device) {
          .arrayLayers = 1,
          .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
     const vk::MemoryRequirements needs = image_.getMemoryRequirements();
-    memory_ = device.device.allocateMemory(
-        {.allocationSize = needs.size,
-         .memoryTypeIndex =
-             device.memory_type(needs.memoryTypeBits, {}, vk::MemoryPropertyFlagBits::eDeviceLocal)});
-    image_.bindMemory(*memory_, 0);
+    memory_ =
+        HeldMemory(device, needs.size,
+                   device.memory_type(needs.memoryTypeBits, {}, vk::MemoryPropertyFlagBits::eDeviceLocal));
+    image_.bindMemory(*memory_.memory(), 0);
     view_ = device.device.createImageView({.image = *image_,
                                            .viewType = vk::ImageViewType::e3D,
                                            .format = format,

@@ -2,7 +2,7 @@
 // app/viewer.
 #pragma once
 
-#include "engine/gpu/device_state.h"
+#include "engine/gpu/held_memory.h"
 
 #include <array>
 #include <cstdint>
@@ -28,7 +28,7 @@ class VolumeTexture {
 
     std::array<uint32_t, 3> size_;
     bool half_ = false;
-    vk::raii::DeviceMemory memory_{nullptr}; ///< outlives the image bound to it
+    HeldMemory memory_; ///< outlives the image bound to it
     vk::raii::Image image_{nullptr};
     vk::raii::ImageView view_{nullptr};
     vk::raii::Sampler sampler_{nullptr};
