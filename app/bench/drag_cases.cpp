@@ -2,6 +2,7 @@
 #include "app/bench/workshop.h"
 #include "engine/forge/drag_session.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace anvil {
@@ -10,6 +11,7 @@ namespace {
 
 struct DragOptions {
     double radius = 0.5; ///< on the unit sphere
+    double size = 1;     ///< of the motion and the ball
     size_t handles = 1;
     std::optional<Field> occluder; ///< a ball that the pole is pushed into; absent: none
 };
@@ -21,12 +23,12 @@ Recipe recipe_of(const Mesh& sphere, const DragOptions& options) {
     for (size_t j = 0; j < options.handles; ++j) {
         Handle handle;
         handle.at = VertexAddress{static_cast<uint32_t>(j * (sphere.vertex_count() / options.handles))};
-        handle.by = 0.3 * sphere.positions[std::get<VertexAddress>(handle.at).vertex];
+        handle.by = 0.3 * options.size * sphere.positions[std::get<VertexAddress>(handle.at).vertex];
         edit.handles.push_back(handle);
     }
     if (options.occluder) {
-        const Vec3 away = 1.4 * sphere.positions[0];
-        recipe.occluders.push_back({"ball", {SphereShape{0.3}}, options.occluder, {away}, {}});
+        const Vec3 away = (1 + 0.4 * options.size) * sphere.positions[0];
+        recipe.occluders.push_back({"ball", {SphereShape{0.3 * options.size}}, options.occluder, {away}, {}});
     }
     recipe.edits.push_back(edit);
     return recipe;
@@ -105,11 +107,27 @@ ReadyCase step_case(Workshop& workshop, size_t vertices, const DragOptions& opti
     return ready;
 }
 
-/// The same number of vertices in the region of a mesh of four times as many.
+/// The radius around the first vertex that holds so many; half of it on a mesh four times as fine holds more
+/// of them, since an icosphere's are denser at the corners of its icosahedron.
+double radius_of(const Mesh& sphere, size_t vertices) {
+    std::vector<double> angles;
+    angles.reserve(sphere.vertex_count());
+    for (const Vec3& p : sphere.positions) {
+        angles.push_back(std::acos(std::clamp(glm::dot(p, sphere.positions[0]), -1.0, 1.0)));
+    }
+    const auto place = angles.begin() + static_cast<std::ptrdiff_t>(vertices - 1);
+    std::nth_element(angles.begin(), place, angles.end());
+    return *place;
+}
+
+/// The same on a mesh of four times as many vertices, half as large: as many vertices in the region, and as
+/// much contact.
 ReadyCase same_region_case(Workshop& workshop, size_t vertices, const DragOptions& options) {
     const auto small = std::make_shared<DragStage>(workshop.sphere(vertices), options);
+    const size_t region = described(workshop, small).region;
     DragOptions half = options;
-    half.radius = options.radius / 2;
+    half.radius = radius_of(*workshop.sphere(4 * vertices), region);
+    half.size = half.radius / options.radius;
     ReadyCase ready = step_case(workshop, 4 * vertices, half);
     ready.yardsticks.push_back({"quarter_mesh", steps_of(small, workshop.tested())});
     return ready;

@@ -48,15 +48,15 @@ TEST_CASE("bench --json has the stable keys and numbers that can be", "[app][ben
     REQUIRE(json["cases"].size() == 1);
     const Json& bench = json["cases"][0];
     CHECK(keys_of(bench) == std::set<std::string>{"name", "vertices", "region", "samples", "median_s",
-                                                  "min_s", "max_s", "bytes", "ratio"});
+                                                  "min_s", "max_s", "bytes", "device_bytes", "ratio"});
     CHECK_THAT(bench["name"].get<std::string>(), Catch::StartsWith(chosen));
     CHECK(bench["region"] == bench["vertices"]);
     CHECK(bench["samples"].get<int>() >= 3);
     CHECK(bench["min_s"].get<double>() > 0);
     CHECK(bench["min_s"] <= bench["median_s"]);
     CHECK(bench["median_s"] <= bench["max_s"]);
-    // One handle: a distance in, a displacement with three counters out.
-    CHECK(bench["bytes"].get<size_t>() == bench["vertices"].get<size_t>() * (4 + 24));
+    // One handle: a distance in, a displacement out; nothing is counted without occluders.
+    CHECK(bench["bytes"].get<size_t>() == bench["vertices"].get<size_t>() * (4 + 12));
     CHECK(keys_of(bench["ratio"]) == std::set<std::string>{"cpu", "cpu_float", "memcpy"});
     for (const auto& [yardstick, ratio] : bench["ratio"].items()) {
         INFO(yardstick);

@@ -26,6 +26,24 @@ TEST_CASE("a buffer gives back what was written, whole and in parts") {
     }
 }
 
+TEST_CASE("a device counts the memory that is held, wherever it is moved, and no longer") {
+    const CheckedDevice device;
+    const uint64_t before = device->memory_in_use();
+    const uint64_t bytes = uint64_t{1} << 20;
+    {
+        Buffer buffer(device->state(), bytes, vk::BufferUsageFlagBits::eStorageBuffer, MemoryUse::device);
+        const uint64_t held = device->memory_in_use() - before;
+        CHECK(held >= bytes);
+        Buffer other = std::move(buffer);
+        CHECK(device->memory_in_use() - before == held);
+        other = Buffer(device->state(), bytes, vk::BufferUsageFlagBits::eStorageBuffer, MemoryUse::device);
+        CHECK(device->memory_in_use() - before == held);
+        const VolumeTexture texture(device->state(), {2, 2, 2}, std::vector<float>(32, 1.0F));
+        CHECK(device->memory_in_use() - before >= held + 32 * sizeof(float));
+    }
+    CHECK(device->memory_in_use() == before);
+}
+
 TEST_CASE("a copy beyond a buffer's end is a fault of ours") {
     const CheckedDevice device;
     Buffer buffer(device->state(), 16, vk::BufferUsageFlagBits::eStorageBuffer, MemoryUse::device);
