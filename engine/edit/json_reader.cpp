@@ -107,15 +107,11 @@ bool JsonReader::has(const std::string& key) const {
     return value_->is_object() && value_->contains(key);
 }
 
-void JsonReader::check_keys(const std::vector<std::string>& known,
-                            const std::vector<std::string>& later) const {
+void JsonReader::check_keys(const std::vector<std::string>& known) const {
     if (!value_->is_object()) {
         fail_found("must be an object with the keys " + joined(known));
     }
     for (const auto& [key, value] : value_->items()) {
-        if (contains(later, key)) {
-            child(key).fail("\"" + key + "\" is not yet supported by this version");
-        }
         if (!contains(known, key)) {
             child(shortened(key))
                 .fail("unknown key; did you mean \"" + nearest_word(key, known) +
@@ -218,12 +214,8 @@ Vec3 JsonReader::direction() const {
     return v;
 }
 
-size_t JsonReader::word_index(const std::vector<std::string>& known,
-                              const std::vector<std::string>& later) const {
+size_t JsonReader::word_index(const std::vector<std::string>& known) const {
     const std::string word = value_->is_string() ? text() : "";
-    if (contains(later, word)) {
-        fail("\"" + word + "\" is not yet supported by this version; use " + joined(known));
-    }
     const auto entry = std::find(known.begin(), known.end(), word);
     if (entry == known.end()) {
         fail_found("must be one of " + joined(known));

@@ -36,8 +36,8 @@ class JsonReader {
     bool is_object() const;
     bool has(const std::string& key) const;
 
-    /// This must be an object without other keys than `known`; keys of `later` are refused as "not yet".
-    void check_keys(const std::vector<std::string>& known, const std::vector<std::string>& later = {}) const;
+    /// This must be an object without other keys than `known`.
+    void check_keys(const std::vector<std::string>& known) const;
 
     JsonReader required(const std::string& key) const;
     std::optional<JsonReader> find(const std::string& key) const;
@@ -53,20 +53,19 @@ class JsonReader {
     Vec3 vector() const;
     Vec3 direction() const; ///< not zero
 
-    /// One of several words; those of `later` are refused as "not yet".
+    /// One of several words.
     template <class Value>
-    Value word(std::initializer_list<std::pair<const char*, Value>> known,
-               const std::vector<std::string>& later = {}) const {
+    Value word(std::initializer_list<std::pair<const char*, Value>> known) const {
         std::vector<std::string> names;
         for (const auto& [name, value] : known) {
             names.emplace_back(name);
         }
-        return (known.begin() + word_index(names, later))->second;
+        return (known.begin() + word_index(names))->second;
     }
 
   private:
     JsonReader child(const std::string& key) const;
-    size_t word_index(const std::vector<std::string>& known, const std::vector<std::string>& later) const;
+    size_t word_index(const std::vector<std::string>& known) const;
     std::string found() const;
 
     const nlohmann::json* value_;

@@ -236,6 +236,9 @@ void read_options(const JsonReader& edit, Edit& result) {
     if (const auto pinned = edit.find("pinned")) {
         result.pinned = read_addresses(*pinned);
     }
+    if (const auto mirror = edit.find("mirror")) {
+        result.mirror = read_mirror(*mirror);
+    }
 }
 
 bool has_hammer(const Edit& edit) {
@@ -252,6 +255,9 @@ void check_handleless(const JsonReader& edit, const Edit& parsed) {
     }
     if (parsed.kind == EditKind::rotate) {
         edit.required("kind").fail_found("without handles nothing turns; use \"translate\"");
+    }
+    if (parsed.mirror && parsed.anchors.empty()) {
+        edit.required("mirror").fail("it repeats handles and anchors, and the edit has none; remove it");
     }
     for (const char* key : {"shape", "least_squares"}) {
         if (edit.has(key)) {
@@ -274,8 +280,7 @@ void check_handleless(const JsonReader& edit, const Edit& parsed) {
 Edit read_edit(const JsonReader& edit) {
     edit.check_keys({"kind", "handles", "anchors", "axis", "sweep", "metric", "method", "radius", "shape",
                      "occluders", "steps", "least_squares", "amount", "pinned", "refine", "smooth_surface",
-                     "dilation"},
-                    {"mirror"});
+                     "dilation", "mirror"});
     Edit result;
     result.kind = edit.required("kind").word<EditKind>(
         {{"translate", EditKind::translate}, {"rotate", EditKind::rotate}});

@@ -271,6 +271,16 @@ struct Dilation {
     bool operator==(const Dilation&) const = default;
 };
 
+/// What an edit does on one side of a plane it does on the other one too.
+struct Mirror {
+    int axis = 0;                ///< the plane stands upright on x (0), y or z
+    double origin = 0;           ///< where on the axis
+    std::optional<double> merge; ///< a length > 0: handles nearer to the plane stay single; default 0.5 % of
+                                 ///< the mesh's diagonal
+
+    bool operator==(const Mirror&) const = default;
+};
+
 struct Edit {
     EditKind kind = EditKind::translate;
     std::vector<Handle> handles; ///< at least one, or none where an occluder moves
@@ -289,6 +299,7 @@ struct Edit {
     std::optional<Refine> refine; ///< absent: the mesh keeps its vertices
     double amount = 1;            ///< in [0, 1]
     std::optional<Dilation> dilation;
+    std::optional<Mirror> mirror;
 
     bool operator==(const Edit&) const = default;
 };

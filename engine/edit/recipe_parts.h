@@ -24,6 +24,7 @@ OccluderUse read_occluder_use(const JsonReader& use);
 std::vector<MotionPose> read_motion(const JsonReader& list);
 Refine read_refine(const JsonReader& refine);
 Dilation read_dilation(const JsonReader& dilation);
+Mirror read_mirror(const JsonReader& mirror);
 Edit read_edit(const JsonReader& edit);
 
 nlohmann::ordered_json written(const Vec3& v);
@@ -41,6 +42,7 @@ nlohmann::ordered_json written(const Handle& handle);
 nlohmann::ordered_json written(const Anchors& anchors);
 nlohmann::ordered_json written(const Refine& refine);
 nlohmann::ordered_json written(const Dilation& dilation);
+nlohmann::ordered_json written(const Mirror& mirror);
 nlohmann::ordered_json written(const Edit& edit);
 
 } // namespace anvil

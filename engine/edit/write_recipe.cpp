@@ -70,6 +70,9 @@ void write_options(const Edit& edit, Json& result) {
     if (edit.dilation) {
         result["dilation"] = written(*edit.dilation);
     }
+    if (edit.mirror) {
+        result["mirror"] = written(*edit.mirror);
+    }
     if (!edit.pinned.empty()) {
         result["pinned"] = list_of(edit.pinned);
     }
@@ -179,6 +182,14 @@ Json written(const Dilation& dilation) {
     }
     if (dilation.width) {
         result["width"] = *dilation.width;
+    }
+    return result;
+}
+
+Json written(const Mirror& mirror) {
+    Json result{{"axis", std::string(1, "xyz"[mirror.axis])}, {"origin", mirror.origin}};
+    if (mirror.merge) {
+        result["merge"] = *mirror.merge;
     }
     return result;
 }

@@ -6,6 +6,7 @@
 #include "engine/forge/dilation.h"
 #include "engine/forge/edit_motion.h"
 #include "engine/forge/edit_region.h"
+#include "engine/forge/mirror_edit.h"
 #include "engine/forge/refine_edit.h"
 #include "engine/forge/stage_timer.h"
 #include "engine/forge/surface_state.h"
@@ -25,14 +26,15 @@ constexpr double tolerated_volume_error = 1e-3;
 
 class EditRun {
   public:
-    EditRun(SurfaceVersion before, const Edit& edit, const std::string& place, const EditTools& tools)
-        : now_(std::move(before)), edit_(edit), place_(place), tools_(tools) {
+    EditRun(SurfaceVersion before, Edit edit, const std::string& place, const EditTools& tools)
+        : now_(std::move(before)), edit_(std::move(edit)), place_(place), tools_(tools) {
         now_.report = {};
         now_.seconds = {};
         now_.warnings.clear();
     }
 
     SurfaceVersion run() {
+        edit_ = on_both_sides(edit_, place_, surface(), now_.frame.diagonal);
         EditReport& report = now_.report;
         report.kind = edit_.kind == EditKind::translate ? "translate" : "rotate";
         const size_t points_added = edit_.refine ? make_points_vertices() : 0;
@@ -296,7 +298,7 @@ class EditRun {
     const Vec3& origin() const { return now_.frame.origin; }
 
     SurfaceVersion now_;
-    const Edit& edit_;
+    Edit edit_; ///< on both sides of its mirror plane, once it runs
     const std::string& place_;
     const EditTools& tools_;
     std::optional<SurfaceState> surface_; ///< of now_; empty once that has changed

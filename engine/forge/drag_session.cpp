@@ -1,5 +1,7 @@
 #include "engine/forge/drag_session.h"
 
+#include "engine/forge/mirror_edit.h"
+
 namespace anvil {
 
 namespace {
@@ -53,7 +55,8 @@ std::optional<std::vector<double>> DragSession::radii_within_measured(const Edit
     return radii;
 }
 
-void DragSession::update(const Edit& edit, const EditOccluders& occluders) {
+void DragSession::update(const Edit& given, const EditOccluders& occluders) {
+    const Edit edit = on_both_sides(given, place, scene_.surface(), scene_.frame().diagonal);
     const std::optional<std::vector<double>> radii = radii_within_measured(edit);
     if (!radii) {
         auto measured = std::make_shared<const EditDistances>(

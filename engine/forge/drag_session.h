@@ -45,6 +45,7 @@ class DragSession {
     /// Returns when the last update is done.
     void wait();
 
+    /// The last one; of a mirrored one what it says of both sides.
     const Edit& edit() const { return now_.edit; }
     const EditRegion& region() const { return now_.region; }
     const EditMotion& motion() const { return now_.motion; }

@@ -20,7 +20,11 @@ std::future<void> warmed(const Recipe& recipe, const EditOccluders& occluders, c
                          Backend& backend) {
     std::vector<std::pair<DeformInput, DeformMotion>> likes;
     for (size_t i = 0; i < recipe.edits.size(); ++i) {
-        const Edit& edit = recipe.edits[i];
+        Edit edit = recipe.edits[i];
+        if (edit.mirror) { // as many handles as most likely will be
+            const std::vector<Handle> given = edit.handles;
+            edit.handles.insert(edit.handles.end(), given.begin(), given.end());
+        }
         DeformInput like;
         like.handle_count = edit.handles.size();
         const OccluderScale scale{frame.origin, frame.diagonal, edit.radius.value_or(frame.diagonal)};

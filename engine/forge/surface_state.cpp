@@ -14,13 +14,12 @@ std::string range(size_t count) {
 
 } // namespace
 
-SurfacePoint SurfaceState::at_vertex(uint32_t vertex, const std::string& place) {
+void SurfaceState::check_vertex(uint32_t vertex, const std::string& place) const {
     const size_t count = history_.first_mesh().vertex_count();
     if (vertex >= count) {
         throw InputError(place + ": vertex " + std::to_string(vertex) + " is out of range: the mesh has " +
                          std::to_string(count) + " vertices (" + range(count) + ")");
     }
-    return vertex_point(mesh_, vertex);
 }
 
 void SurfaceState::check_face(uint32_t face, const std::string& place) const {
@@ -62,7 +61,8 @@ SurfacePoint SurfaceState::near(const Vec3& point, const std::string& place) {
 
 SurfacePoint SurfaceState::resolve(const SurfaceAddress& address, const std::string& place) {
     if (const auto* vertex = std::get_if<VertexAddress>(&address)) {
-        return at_vertex(vertex->vertex, place);
+        check_vertex(vertex->vertex, place);
+        return vertex_point(mesh_, vertex->vertex);
     }
     if (const auto* face = std::get_if<FaceAddress>(&address)) {
         return at_face(*face, place);
@@ -76,6 +76,36 @@ std::vector<uint32_t> SurfaceState::triangles_of(const WholeFaceAddress& face,
     const Mesh& file = history_.first_mesh();
     return history_.parts_of(static_cast<uint32_t>(file.first_triangle(face.face)),
                              static_cast<uint32_t>(file.first_triangle(face.face + size_t{1})));
+}
+
+Vec3 SurfaceState::place_of(const SurfaceAddress& address, const std::string& place) {
+    if (const auto* vertex = std::get_if<VertexAddress>(&address)) {
+        check_vertex(vertex->vertex, place);
+        return positions_[vertex->vertex]; // at once: finding its triangle takes O(mesh)
+    }
+    return position_of(resolve(address, place));
+}
+
+Vec3 SurfaceState::centre_of(const WholeFaceAddress& face, const std::string& place) const {
+    const std::vector<uint32_t> triangles = triangles_of(face, place);
+    Vec3 sum(0);
+    for (const uint32_t t : triangles) {
+        const Triangle& corners = mesh_.triangles[t];
+        sum += positions_[corners[0]] + positions_[corners[1]] + positions_[corners[2]];
+    }
+    return sum / (3.0 * static_cast<double>(triangles.size()));
+}
+
+WholeFaceAddress SurfaceState::face_near(const Vec3& point, const std::string& place) {
+    const uint32_t triangle = near(point, place).triangle;
+    const uint32_t root = history_.roots().empty() ? triangle : history_.roots()[triangle];
+    const Mesh& file = history_.first_mesh();
+    uint32_t below = 0, above = static_cast<uint32_t>(file.polygon_count());
+    while (above - below > 1) {
+        const uint32_t middle = (below + above) / 2;
+        (file.first_triangle(middle) <= root ? below : above) = middle;
+    }
+    return {below};
 }
 
 std::vector<SurfacePoint> SurfaceState::line_through(std::span<const SurfacePoint> points,

@@ -43,6 +43,15 @@ class SurfaceState {
     /// What is left of or became of the polygon's triangles. @throws InputError as resolve() does.
     std::vector<uint32_t> triangles_of(const WholeFaceAddress& face, const std::string& place) const;
 
+    /// Where an address is, in space. @throws InputError as resolve() does.
+    Vec3 place_of(const SurfaceAddress& address, const std::string& place);
+    /// The mean of a polygon's triangles' centres. @throws InputError as resolve() does.
+    Vec3 centre_of(const WholeFaceAddress& face, const std::string& place) const;
+
+    /// The polygon of the file that the surface nearest to a point belongs to. @throws InputError as
+    /// resolve().
+    WholeFaceAddress face_near(const Vec3& point, const std::string& place);
+
     /// A line through the points, with all places between that distances need: where two that follow each
     /// other lie in no common triangle, a shortest line on the smoothed copy joins them.
     /// @throws InputError where no way leads from one to the next; `place` is that of the polyline.
@@ -66,7 +75,7 @@ class SurfaceState {
     std::vector<VertexWeight> weights_of(const SurfacePoint& point) const;
 
   private:
-    SurfacePoint at_vertex(uint32_t vertex, const std::string& place);
+    void check_vertex(uint32_t vertex, const std::string& place) const;
     SurfacePoint at_face(const FaceAddress& address, const std::string& place) const;
     void check_face(uint32_t face, const std::string& place) const;
     DistanceField straight_distances(const DistanceSources& sources, double radius) const;

@@ -94,7 +94,7 @@ const std::vector<BadRecipe> bad_recipes = {
      with_occluder(ball + R"(, "influence": {"kind": "soft", "strength": 2})"),
      {"strength"}},
     {"an edit's unknown occluder", translate(good_handle, R"(, "occluders": ["anvil"])"), {"anvil"}},
-    {"a key of a later issue", translate(good_handle, R"(, "mirror": {"axis": "x"})"), {"not yet"}},
+    {"a mirror without axis", translate(good_handle, R"(, "mirror": {"origin": 0})"), {"mirror", "axis"}},
 };
 
 } // namespace

@@ -93,7 +93,3 @@ TEST_CASE("wrong types say what was found and what is wanted") {
     check_complaint(minimal(R"(, "pinned": {"vertex": 1})"), {"pinned", "list"});
     check_complaint(minimal(R"(, "metric": "manhattan")"), {"metric", "\"geodesic\"", "\"euclidean\""});
 }
-
-TEST_CASE("keys of later versions say not yet") {
-    check_complaint(minimal(R"(, "mirror": {"axis": "x", "origin": 0})"), {"mirror", "not yet"});
-}
