@@ -64,6 +64,21 @@ SurfacePoint RefinementHistory::find(std::span<const Triangle> triangles, uint32
     return snapped(best);
 }
 
+SurfacePoint RefinementHistory::find_first(std::span<const Triangle> triangles,
+                                           const SurfacePoint& point) const {
+    if (roots_.empty()) {
+        return snapped(point);
+    }
+    const uint32_t root = roots_[point.triangle];
+    RootPlaces places(mesh_.triangles[root], mesh_.vertex_count(), parents_);
+    const Triangle& corners = triangles[point.triangle];
+    Vec3 weights(0);
+    for (int i = 0; i < 3; ++i) {
+        weights += point.barycentric[i] * places.weights_of(corners[i]);
+    }
+    return snapped({root, weights});
+}
+
 std::vector<uint32_t> RefinementHistory::parts_of(uint32_t first, uint32_t end) const {
     std::vector<uint32_t> parts;
     const auto count = static_cast<uint32_t>(roots_.empty() ? end : roots_.size());

@@ -49,6 +49,9 @@ class RefinementHistory {
     SurfacePoint find(std::span<const Triangle> triangles, uint32_t first_triangle,
                       const Vec3& weights) const;
 
+    /// The other way: the point of the mesh before any refinement that became this one of a current triangle.
+    SurfacePoint find_first(std::span<const Triangle> triangles, const SurfacePoint& point) const;
+
     /// The current triangles that the triangles [first, end) of the mesh before any refinement became.
     std::vector<uint32_t> parts_of(uint32_t first, uint32_t end) const;
 

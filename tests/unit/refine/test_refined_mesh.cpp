@@ -148,6 +148,9 @@ TEST_CASE("Addresses keep their places through several refinements") {
             const SurfacePoint found = history.find(current.triangles, t, b);
             CHECK(glm::distance(position(current, current.positions, found),
                                 position(mesh, mesh.positions, {t, b})) < 1e-8);
+            // And back: to the same place, in that triangle or, on an edge, in its neighbour.
+            CHECK(glm::distance(position(mesh, mesh.positions, history.find_first(current.triangles, found)),
+                                position(mesh, mesh.positions, {t, b})) < 1e-8);
         }
     }
 }
