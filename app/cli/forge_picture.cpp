@@ -2,7 +2,7 @@
 
 #include "engine/gpu/offscreen_renderer.h"
 #include "engine/occluder/occluder_motion.h"
-#include "engine/occluder/solid.h"
+#include "engine/occluder/shown_surface.h"
 
 #include <algorithm>
 #include <list>
@@ -29,30 +29,9 @@ std::vector<glm::vec3> relative(std::span<const Vec3> positions, const Vec3& ori
     return result;
 }
 
-/// A square of an unbounded plane as wide as the scene, below the scene's centre.
-Mesh plane_patch(const PlaneShape& plane, const Vec3& near, double half) {
-    const Vec3 n = plane.normal / glm::length(plane.normal);
-    const Vec3 u = glm::normalize(glm::cross(n, std::abs(n.x) < 0.7 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
-    const Vec3 v = glm::cross(n, u);
-    const Vec3 centre = near - (glm::dot(n, near) - plane.offset) * n;
-    Mesh mesh;
-    mesh.positions = {centre + half * (u + v), centre + half * (v - u), centre - half * (u + v),
-                      centre + half * (u - v)};
-    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    return mesh;
-}
-
 DrawnSurface occluder_surface(const Occluder& occluder, const Placement& place, const Box& scene,
                               const std::filesystem::path& folder) {
-    Mesh mesh;
-    if (const auto* plane = std::get_if<PlaneShape>(&occluder.shape.solid)) {
-        const Vec3 arm = (scene.centre() - place.origin) / place.scale;
-        const Vec3 near(glm::dot(place.axes[0], arm), glm::dot(place.axes[1], arm),
-                        glm::dot(place.axes[2], arm));
-        mesh = plane_patch(*plane, near, 0.6 * scene.diagonal() / place.scale);
-    } else if (is_bounded(occluder.shape)) {
-        mesh = solid_surface(occluder.shape, {folder, nullptr}, occluder_cells);
-    }
+    Mesh mesh = shown_surface(occluder.shape, place, scene, {folder, nullptr}, occluder_cells);
     for (Vec3& p : mesh.positions) {
         p = place.origin + place.scale * (place.axes[0] * p.x + place.axes[1] * p.y + place.axes[2] * p.z);
     }

@@ -86,7 +86,7 @@ void Commands::end_recording() {
     recording_ = false;
 }
 
-void Commands::submit() {
+void Commands::submit(const vk::SemaphoreSubmitInfo& before, const vk::SemaphoreSubmitInfo& after) {
     wait();
     guarded("handing work to the device", [&] {
         if (recording_) {
@@ -94,7 +94,12 @@ void Commands::submit() {
         }
         const vk::CommandBufferSubmitInfo commands{.commandBuffer = *buffer_};
         const std::lock_guard lock(device_.queue_mutex);
-        device_.queue.submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &commands},
+        device_.queue.submit2(vk::SubmitInfo2{.waitSemaphoreInfoCount = before.semaphore ? 1U : 0U,
+                                              .pWaitSemaphoreInfos = &before,
+                                              .commandBufferInfoCount = 1,
+                                              .pCommandBufferInfos = &commands,
+                                              .signalSemaphoreInfoCount = after.semaphore ? 1U : 0U,
+                                              .pSignalSemaphoreInfos = &after},
                               *fence_);
         pending_ = true;
     });

@@ -87,7 +87,9 @@ class Commands {
     const vk::raii::CommandBuffer& begin();
     /// Makes all writes visible to the host, ends the recording and hands it to the queue; without a new
     /// recording hands over the last one again, after waiting for it.
-    void submit();
+    void submit() { submit({}, {}); }
+    /// The same; the work waits for one of the semaphores and signals the other, if they are given.
+    void submit(const vk::SemaphoreSubmitInfo& before, const vk::SemaphoreSubmitInfo& after);
     /// Blocks until the submission is done; returns at once if there is none.
     void wait();
 

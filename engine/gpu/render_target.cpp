@@ -46,7 +46,7 @@ vk::SampleCountFlagBits RenderTarget::sample_count(const DeviceState& device) {
 }
 
 RenderTarget::RenderTarget(DeviceState& device, uint32_t width, uint32_t height,
-                           vk::SampleCountFlagBits samples)
+                           vk::SampleCountFlagBits samples, vk::Format format)
     : width_(width), height_(height), multisampled_(samples != vk::SampleCountFlagBits::e1) {
     const uint32_t limit = std::min({device.limits.maxImageDimension2D, device.limits.maxFramebufferWidth,
                                      device.limits.maxFramebufferHeight});
@@ -59,10 +59,10 @@ RenderTarget::RenderTarget(DeviceState& device, uint32_t width, uint32_t height,
         const vk::Extent3D extent{width, height, 1};
         const auto colour = vk::ImageUsageFlagBits::eColorAttachment;
         const auto read = colour | vk::ImageUsageFlagBits::eTransferSrc;
-        colour_ = make_attachment(device, extent, colour_format, samples, multisampled_ ? colour : read,
+        colour_ = make_attachment(device, extent, format, samples, multisampled_ ? colour : read,
                                   vk::ImageAspectFlagBits::eColor);
         if (multisampled_) {
-            resolved_ = make_attachment(device, extent, colour_format, vk::SampleCountFlagBits::e1, read,
+            resolved_ = make_attachment(device, extent, format, vk::SampleCountFlagBits::e1, read,
                                         vk::ImageAspectFlagBits::eColor);
         }
         depth_ =

@@ -1,4 +1,4 @@
-// Where a picture is drawn before it is read back; internal to engine/gpu.
+// Where a picture is drawn before it is copied elsewhere; internal to engine/gpu and app/viewer.
 #pragma once
 
 #include "engine/gpu/device_state.h"
@@ -16,10 +16,11 @@ struct Attachment {
 /// starts from after begin().
 class RenderTarget {
   public:
-    static constexpr vk::Format colour_format = vk::Format::eR8G8B8A8Srgb;
+    static constexpr vk::Format colour_format = vk::Format::eR8G8B8A8Srgb; ///< of pictures
 
     /// @throws DeviceError if the size exceeds the device's limits or memory is out.
-    RenderTarget(DeviceState& device, uint32_t width, uint32_t height, vk::SampleCountFlagBits samples);
+    RenderTarget(DeviceState& device, uint32_t width, uint32_t height, vk::SampleCountFlagBits samples,
+                 vk::Format colour = colour_format);
 
     /// Starts drawing over a cleared picture (dynamic rendering), viewport and scissor set.
     void begin(const vk::raii::CommandBuffer& commands) const;

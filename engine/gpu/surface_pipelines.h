@@ -1,7 +1,7 @@
-// The graphics pipelines of pictures; internal to engine/gpu and app/viewer.
+// The graphics pipelines of pictures; internal to engine/gpu.
 #pragma once
 
-#include "engine/gpu/device_state.h"
+#include "engine/gpu/graphics_pipeline.h"
 
 #include <glm/glm.hpp>
 
@@ -11,13 +11,6 @@ namespace shader {
 using glm::mat4;
 #include "shaders/viewer/surface_parameters.h"
 } // namespace shader
-
-/// What the pipelines draw to.
-struct TargetFormat {
-    vk::Format colour;
-    vk::Format depth;
-    vk::SampleCountFlagBits samples;
-};
 
 /// Vertices are SurfaceVertex, push constants shader::SurfaceParameters (vertex and fragment stage).
 struct SurfacePipelines {

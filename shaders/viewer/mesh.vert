@@ -1,0 +1,43 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "viewer/mesh_parameters.h"
+
+layout(push_constant, scalar) uniform Block { MeshParameters parameters; };
+
+layout(binding = 0, scalar) readonly buffer Camera { mat4 projection; };
+layout(binding = 1, scalar) readonly buffer Positions { vec3 positions[]; };
+layout(binding = 2, scalar) readonly buffer Normals { vec3 normals[]; };
+// Of a region that a session moves: each vertex's number among `region_normals`, the first of which have `ends`.
+layout(binding = 3, scalar) readonly buffer Slots { uint slots[]; };
+layout(binding = 4, scalar) readonly buffer Ends { vec3 ends[]; };
+layout(binding = 5, scalar) readonly buffer RegionNormals { vec3 region_normals[]; };
+layout(binding = 6, scalar) readonly buffer Marks { vec2 marks[]; }; // weight, distance
+
+layout(location = 0) out vec3 view_position;
+layout(location = 1) out vec3 view_normal;
+layout(location = 2) out vec2 mark; // outside a region: no weight, negative distance
+
+bool has(uint flag) { return (parameters.flags & flag) != 0u; }
+
+void main() {
+    vec3 position = positions[gl_VertexIndex];
+    vec3 normal = normals[gl_VertexIndex];
+    mark = vec2(0.0, -1.0);
+    if (has(MESH_HAS_REGION)) {
+        uint slot = slots[gl_VertexIndex];
+        if (slot != 0xffffffffu) {
+            normal = region_normals[slot];
+            if (slot < parameters.point_count) {
+                position = ends[slot];
+                mark = marks[slot];
+            }
+        }
+    }
+    view_position = (parameters.model_view * vec4(position, 1.0)).xyz;
+    view_normal = mat3(parameters.model_view) * normal;
+    gl_Position = projection * vec4(view_position, 1.0);
+    if (has(MESH_LINES)) {
+        gl_Position.z -= 2e-4 * gl_Position.w; // in front of the triangles that they border
+    }
+}
