@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
     anvil::add_devices(program, context);
     anvil::add_selftest(program, context);
     anvil::add_bench(program, context);
-    program.add_later_command("view", "Open a mesh or recipe in a window");
+    anvil::add_view(program, context);
 
     const int status = run(program, argc, argv);
     anvil::clear_progress_bar();

@@ -32,7 +32,7 @@ function(anvil_tidy_target target)
   set(ANVIL_TIDY_STAMPS ${ANVIL_TIDY_STAMPS} PARENT_SCOPE)
 endfunction()
 
-foreach(target anvil_engine anvil_gpu anvil anvil_test_support anvil_unit_tests anvil_gpu_tests anvil_app_tests)
+foreach(target anvil_engine anvil_gpu anvil_viewer anvil anvil_test_support anvil_unit_tests anvil_gpu_tests anvil_viewer_tests anvil_app_tests)
   if(TARGET ${target})
     anvil_tidy_target(${target})
   endif()

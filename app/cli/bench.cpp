@@ -1,6 +1,6 @@
 #include "app/bench/bench.h"
+#include "app/backend_choice.h"
 #include "app/bench/comparison.h"
-#include "app/cli/backend_choice.h"
 #include "app/cli/command.h"
 #include "app/cli/progress_bar.h"
 

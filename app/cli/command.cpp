@@ -31,6 +31,10 @@ void Command::positional(const std::string& name, std::string& value, const std:
     app_.add_option(name, value, help)->required();
 }
 
+void Command::optional_positional(const std::string& name, std::string& value, const std::string& help) {
+    app_.add_option(name, value, help);
+}
+
 void Command::option(const std::string& names, std::string& value, const std::string& help) {
     app_.add_option(names, value, help)->capture_default_str();
 }
@@ -87,15 +91,6 @@ Command Program::add_command(const std::string& name, const std::string& descrip
     command->set_version_flag("--version", version, "Print the version and exit");
     command->footer("Example:\n  " + example);
     return Command(*command);
-}
-
-void Program::add_later_command(const std::string& name, const std::string& description) {
-    CLI::App* command = app_->add_subcommand(name, description + " (not yet)");
-    command->allow_extras();
-    command->group("To come");
-    command->callback([name] {
-        throw InputError("anvil " + name + " is announced but not yet there; see anvil --help for what is");
-    });
 }
 
 void Program::run(int argc, char** argv) {

@@ -25,6 +25,7 @@ class Command {
 
     /// Required, by its place.
     void positional(const std::string& name, std::string& value, const std::string& help);
+    void optional_positional(const std::string& name, std::string& value, const std::string& help);
     void option(const std::string& names, std::string& value, const std::string& help);
     void required_option(const std::string& names, std::string& value, const std::string& help);
     /// One of `choices`.
@@ -52,8 +53,6 @@ class Program {
 
     /// A command with --help, --version and an example below its help.
     Command add_command(const std::string& name, const std::string& description, const std::string& example);
-    /// A command that is announced and says that it is not yet there.
-    void add_later_command(const std::string& name, const std::string& description);
 
     /// Parses and runs the command, or prints help or version.
     /// @throws InputError for arguments that are not understood, and what the command throws.
@@ -79,6 +78,7 @@ void add_sample(Program& program, CommandContext& context);
 void add_devices(Program& program, CommandContext& context);
 void add_selftest(Program& program, CommandContext& context);
 void add_bench(Program& program, CommandContext& context);
+void add_view(Program& program, CommandContext& context);
 
 /// Writes to the file, whole or not at all, or to stdout where `path` is empty. @throws WriteError
 void write_text(const std::string& path, const std::string& text);

@@ -1,4 +1,4 @@
-#include "app/cli/backend_choice.h"
+#include "app/backend_choice.h"
 #include "app/cli/command.h"
 #include "engine/gpu/device.h"
 

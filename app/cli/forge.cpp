@@ -1,5 +1,5 @@
 #include "engine/forge/forge.h"
-#include "app/cli/backend_choice.h"
+#include "app/backend_choice.h"
 #include "app/cli/command.h"
 #include "app/cli/forge_picture.h"
 #include "app/cli/picture_options.h"

@@ -1,5 +1,5 @@
 #include "engine/gpu/selftest.h"
-#include "app/cli/backend_choice.h"
+#include "app/backend_choice.h"
 #include "app/cli/command.h"
 #include "engine/core/error.h"
 #include "engine/core/number_text.h"

@@ -1,4 +1,4 @@
-#include "app/cli/backend_choice.h"
+#include "app/backend_choice.h"
 
 #include "engine/core/error.h"
 #include "engine/deform/lasting_backend.h"

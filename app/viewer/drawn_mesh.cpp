@@ -1,0 +1,80 @@
+#include "app/viewer/drawn_mesh.h"
+
+#include "engine/core/parallel_for.h"
+#include "engine/mesh/edge_list.h"
+#include "engine/mesh/incidence.h"
+
+namespace anvil {
+
+namespace {
+
+std::vector<glm::vec3> relative(std::span<const Vec3> positions, const Vec3& origin) {
+    std::vector<glm::vec3> narrow;
+    narrow.reserve(positions.size());
+    for (const Vec3& p : positions) {
+        narrow.emplace_back(is_finite(p) ? p - origin : Vec3(0));
+    }
+    return narrow;
+}
+
+std::vector<uint32_t> triangle_indices(const Mesh& mesh, std::span<const Vec3> positions) {
+    std::vector<uint32_t> indices;
+    indices.reserve(3 * mesh.triangles.size());
+    for (const Triangle& t : mesh.triangles) {
+        if (is_finite(positions[t[0]]) && is_finite(positions[t[1]]) && is_finite(positions[t[2]])) {
+            indices.insert(indices.end(), t.begin(), t.end());
+        }
+    }
+    return indices;
+}
+
+std::vector<uint32_t> line_indices(const Mesh& mesh, std::span<const Vec3> positions) {
+    const EdgeList edges = list_edges(mesh);
+    std::vector<uint32_t> indices;
+    indices.reserve(edges.uses.size());
+    for (uint32_t low = 0; low + 1 < edges.begin.size(); ++low) {
+        for (uint32_t i = edges.begin[low]; i < edges.begin[low + 1]; ++i) {
+            const uint32_t high = edges.uses[i].high;
+            const bool again = i > edges.begin[low] && edges.uses[i - 1].high == high;
+            if (!again && is_finite(positions[low]) && is_finite(positions[high])) {
+                indices.insert(indices.end(), {low, high});
+            }
+        }
+    }
+    return indices;
+}
+
+Buffer index_buffer(DeviceState& device, std::span<const uint32_t> indices) {
+    Buffer buffer(device, std::max<uint64_t>(indices.size_bytes(), 4), vk::BufferUsageFlagBits::eIndexBuffer,
+                  MemoryUse::device);
+    buffer.write_all(indices);
+    return buffer;
+}
+
+} // namespace
+
+DrawnMesh::DrawnMesh(DeviceState& device, const Mesh& mesh, std::span<const Vec3> places, const Vec3& centre,
+                     bool editable)
+    : origin(centre) {
+    for (const Vec3& p : places) {
+        if (is_finite(p)) {
+            box.include(p);
+        }
+    }
+    positions = storage_buffer(device, std::span<const glm::vec3>(relative(places, origin)));
+    const std::vector<Vec3> directions = vertex_normals(mesh, places);
+    normals = storage_buffer(device, std::span<const glm::vec3>(relative(directions, Vec3(0))));
+    const std::vector<uint32_t> corners = anvil::triangle_indices(mesh, places);
+    triangles = index_buffer(device, corners);
+    triangle_indices = static_cast<uint32_t>(corners.size());
+    const std::vector<uint32_t> ends = anvil::line_indices(mesh, places);
+    lines = index_buffer(device, ends);
+    line_indices = static_cast<uint32_t>(ends.size());
+    if (editable) {
+        slots =
+            storage_buffer(device, std::span<const uint32_t>(std::vector<uint32_t>(places.size(), no_index)),
+                           MemoryUse::upload);
+    }
+}
+
+} // namespace anvil

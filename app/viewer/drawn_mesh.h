@@ -1,0 +1,48 @@
+// A mesh as the viewer draws it, and the region of it that a drag moves.
+#pragma once
+
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/device_surface.h"
+#include "engine/mesh/mesh.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace anvil {
+
+/// On the device: made once, then only drawn. From any thread.
+struct DrawnMesh {
+    /// `positions` (world) of the mesh's vertices; drawn relative to `origin`, and what is not finite with
+    /// its triangles not at all. `editable`: a DrawnRegion may move a part. @throws DeviceError
+    DrawnMesh(DeviceState& device, const Mesh& mesh, std::span<const Vec3> positions, const Vec3& origin,
+              bool editable);
+
+    Vec3 origin{0};
+    Box box; ///< world
+    Buffer positions;
+    Buffer normals;
+    Buffer triangles; ///< indices
+    Buffer lines;     ///< indices: the polygons' edges, each once
+    Buffer slots;     ///< a number per vertex, see shaders/viewer/mesh.vert; empty where not editable
+    uint32_t triangle_indices = 0;
+    uint32_t line_indices = 0;
+};
+
+/// Each vertex's weight in an edit (largest |phi| of its handles) and its distance from the nearest.
+struct RegionMark {
+    float weight = 0;
+    float distance = -1;
+};
+
+/// The part of a mesh that an edit moves, as it stands.
+struct DrawnRegion {
+    std::vector<uint32_t> vertices; ///< with normals: those that move first
+    DeviceSurface surface;
+    std::shared_ptr<const Buffer> marks;       ///< of those that move
+    std::shared_ptr<const DeformSession> kept; ///< owns the surface's buffers, if that is on a device
+    Buffer ends;                               ///< they are ours, if it is not
+    Buffer normals;
+};
+
+} // namespace anvil

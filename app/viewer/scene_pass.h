@@ -1,0 +1,47 @@
+// Draws a scene's meshes; see shaders/viewer/mesh.vert.
+#pragma once
+
+#include "app/viewer/scene.h"
+#include "engine/gpu/graphics_pipeline.h"
+
+namespace anvil {
+
+namespace shader {
+using glm::mat4;
+using glm::vec4;
+using uint = uint32_t;
+#include "shaders/viewer/mesh_parameters.h"
+} // namespace shader
+
+class ScenePass {
+  public:
+    /// @throws DeviceError
+    ScenePass(DeviceState& device, const TargetFormat& target);
+
+    /// Before the rendering begins: what an earlier call recorded is done.
+    void prepare(const Scene& scene);
+    /// Within a rendering of the target, over nothing.
+    void record(const vk::raii::CommandBuffer& commands, const Scene& scene) const;
+
+  private:
+    void draw(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& pipeline,
+              const SceneItem& item, const Scene& scene, bool lines) const;
+    void bind(const vk::raii::CommandBuffer& commands, const SceneItem& item) const;
+    void number_region(const SceneItem& item);
+
+    DeviceState& device_;
+    Buffer camera_;  ///< the projection
+    Buffer nothing_; ///< where an item has no region
+    vk::raii::DescriptorSetLayout set_layout_{nullptr};
+    vk::raii::PipelineLayout layout_{nullptr};
+    vk::raii::PipelineLayout background_layout_{nullptr};
+    vk::raii::Pipeline background_{nullptr};
+    vk::raii::Pipeline opaque_{nullptr};
+    vk::raii::Pipeline lines_{nullptr};
+    vk::raii::Pipeline translucent_back_{nullptr};
+    vk::raii::Pipeline translucent_front_{nullptr};
+    std::weak_ptr<DrawnMesh> numbered_mesh_;             ///< the one whose slots are not all empty
+    std::shared_ptr<const DrawnRegion> numbered_region_; ///< and whose they are
+};
+
+} // namespace anvil

@@ -1,0 +1,49 @@
+// Plays a script to a session, some of it each frame, as a person would.
+#pragma once
+
+#include "app/viewer/script.h"
+#include "app/viewer/session.h"
+#include "app/viewer/window.h"
+
+#include <chrono>
+#include <deque>
+
+namespace anvil {
+
+class ScriptPlayer {
+  public:
+    /// @throws InputError as read_script()
+    explicit ScriptPlayer(const std::filesystem::path& file);
+
+    /// What a person would do next, before a frame. Pictures that are wanted of the frame follow.
+    /// @throws InputError naming the line: a place that is not there, an expectation that does not hold.
+    std::vector<InputEvent> next(Session& session, Window& window);
+    /// Files to write the frame to that is drawn now.
+    std::vector<std::string> take_pictures() { return std::exchange(pictures_, {}); }
+    /// All lines are played and their frames drawn.
+    bool done() const { return next_ == lines_.size() && events_.empty() && !waiting_; }
+
+  private:
+    bool play(const ScriptLine& line, Session& session, Window& window);
+    void act(const ScriptLine& line, Session& session, Window& window);
+    void change_occluder(const ScriptLine& line, Session& session) const;
+    void expect(const ScriptLine& line, Session& session) const;
+    void add_mouse(InputEvent::Kind kind, const std::vector<std::string>& arguments);
+    void add_move(double x, double y);
+    void add_drag(const ScriptLine& line);
+    void move_to(const ScriptLine& line, const Session& session);
+
+    std::string file_;
+    std::vector<ScriptLine> lines_;
+    size_t next_ = 0;
+    std::deque<InputEvent> events_; ///< one a frame
+    Modifiers held_;
+    double x_ = 0;
+    double y_ = 0;
+    bool waiting_ = false;
+    int settled_frames_ = 0;
+    std::chrono::steady_clock::time_point awake_at_{};
+    std::vector<std::string> pictures_;
+};
+
+} // namespace anvil

@@ -1,0 +1,313 @@
+#include "app/viewer/session.h"
+
+#include "app/backend_choice.h"
+#include "app/viewer/window.h"
+#include "engine/core/error.h"
+#include "engine/core/user_folder.h"
+#include "engine/occluder/shape_nodes.h"
+
+#include <algorithm>
+
+namespace anvil {
+
+namespace {
+
+constexpr double default_radius = 0.15; // of the diagonal
+constexpr size_t most_notices = 6;
+const glm::vec4 occluder_colour(0.17F, 0.34F, 0.52F, 0.42F);
+
+std::string text_of(const std::exception_ptr& error) {
+    try {
+        std::rethrow_exception(error);
+    } catch (const std::bad_alloc&) {
+        return "out of memory; the edit was not taken";
+    } catch (const std::exception& e) {
+        return e.what();
+    }
+}
+
+glm::mat4 model_view(const OrbitCamera& camera, const Transform& transform) {
+    const Placement place = placement(transform);
+    const glm::dmat3 axes(place.axes[0] * place.scale, place.axes[1] * place.scale,
+                          place.axes[2] * place.scale);
+    return camera.view(place.origin) * glm::mat4(glm::mat3(axes));
+}
+
+} // namespace
+
+Session::Session(std::shared_ptr<Device> device, const std::string& choice, std::function<void()> changed)
+    : device_(std::move(device)), bench_(std::make_unique<Workbench>(device_, choice)),
+      shown_(bench_->shown()), device_choices_{"cpu"} {
+    Log log;
+    for (LostSession& lost : lost_sessions(user_state_folder(), log)) {
+        lost_.push_back(std::make_shared<LostSession>(std::move(lost)));
+    }
+    for (const DeviceInfo& info : devices_or_none(log)) {
+        if (info.usable()) {
+            device_choices_.push_back(info.name);
+        }
+    }
+    for (std::string& warning : log.warnings) {
+        notices_.push_back({false, std::move(warning)});
+    }
+    worker_ = std::make_unique<Worker>([this](const std::exception_ptr& error) { failed(error); },
+                                       std::move(changed));
+}
+
+Session::~Session() = default;
+
+void Session::failed(std::exception_ptr error) {
+    const std::lock_guard lock(mutex_);
+    said_.push_back({true, text_of(error)});
+}
+
+void Session::ask(const std::string& what, Worker::Job job, const std::string& replaces) {
+    worker_->add(what, std::move(job), replaces);
+}
+
+void Session::open(const std::filesystem::path& file, const std::filesystem::path& mesh) {
+    editor.clear();
+    ask("opening " + file.filename().string(),
+        [this, file, mesh](Progress& progress) { bench_->open(file, mesh, progress); });
+}
+
+void Session::recover() {
+    if (lost_.empty()) {
+        throw InputError("no session was lost");
+    }
+    editor.clear();
+    ask("recovering a session",
+        [this, lost = lost_.front()](Progress& progress) { bench_->recover(*lost, progress); });
+    lost_.clear();
+}
+
+void Session::forget_lost() {
+    for (const auto& lost : lost_) {
+        lost->discard();
+    }
+    lost_.clear();
+}
+
+void Session::save(const std::filesystem::path& file) {
+    ask("saving " + file.filename().string(), [this, file](Progress&) {
+        if (file.extension() == ".json") {
+            bench_->save_recipe(file);
+        } else {
+            bench_->save_mesh(file);
+        }
+        const std::lock_guard lock(mutex_);
+        said_.push_back({false, "saved " + file.string()});
+    });
+}
+
+void Session::undo() {
+    editor.clear();
+    ask("undo", [this](Progress& progress) { bench_->undo(progress); });
+}
+
+void Session::redo() {
+    editor.clear();
+    ask("redo", [this](Progress& progress) { bench_->redo(progress); });
+}
+
+void Session::use_device(const std::string& choice) {
+    ask("changing the device", [this, choice](Progress& progress) { bench_->use_device(choice, progress); });
+}
+
+void Session::change(const Recipe& next, const std::string& what, const std::string& merge) {
+    ask(
+        what, [this, next, what, merge](Progress& progress) { bench_->change(next, what, merge, progress); },
+        merge.empty() ? "" : "change " + merge);
+}
+
+void Session::commit() {
+    if (!editor.has_handles()) {
+        return;
+    }
+    const Edit edit = editor.edit();
+    const std::string what = edit.kind == EditKind::rotate ? "turn" : "move";
+    editor.clear();
+    ask(what, [this, edit, what](Progress& progress) { bench_->commit(edit, what, progress); });
+}
+
+void Session::drop() {
+    editor.clear();
+    ask("dropping the edit", [this](Progress&) { bench_->drop_preview(); });
+}
+
+void Session::update() {
+    switch (editor.take_wish()) {
+    case EditorWish::preview:
+        ask(
+            "following",
+            [this, edit = editor.edit()](Progress& progress) { bench_->preview(edit, progress); }, "preview");
+        break;
+    case EditorWish::commit:
+        commit();
+        break;
+    case EditorWish::drop:
+        drop();
+        break;
+    case EditorWish::nothing:
+        break;
+    }
+    take_up();
+}
+
+void Session::take_up() {
+    shown_ = bench_->shown();
+    for (std::string& warning : bench_->take_warnings()) {
+        notices_.push_back({false, std::move(warning)});
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        std::move(said_.begin(), said_.end(), std::back_inserter(notices_));
+        said_.clear();
+    }
+    if (notices_.size() > most_notices) {
+        notices_.erase(notices_.begin(), notices_.end() - most_notices);
+    }
+    if (shown_->mesh && shown_->mesh_file != opened_) {
+        opened_ = shown_->mesh_file;
+        editor.radius = default_radius * bounds().diagonal();
+        camera.frame(shown_->document.surface->positions, Vec3(0.35, 0.25, 1.0));
+    }
+}
+
+bool Session::settled() const {
+    return worker_->idle() && shown_ == bench_->shown();
+}
+
+Box Session::bounds() const {
+    return shown_->mesh ? shown_->mesh->box : Box();
+}
+
+std::optional<Vec3> Session::under_cursor() const {
+    return editor.hover() ? std::optional(editor.hover()->position) : std::nullopt;
+}
+
+void Session::frame_all() {
+    if (shown_->mesh) {
+        camera.frame(shown_->document.surface->positions);
+    }
+}
+
+void Session::look_from(const Vec3& direction) {
+    camera.look_from(direction);
+}
+
+void Session::handle(const InputEvent& event) {
+    if (event.kind == InputEvent::Kind::drop) {
+        if (!event.files.empty()) {
+            open(event.files.front());
+        }
+        return;
+    }
+    // A turn of the view in mid-drag is welcome; what it does not take is the editor's.
+    const bool camera_first =
+        event.kind != InputEvent::Kind::scroll &&
+        navigation.handle(event, camera, editor.dragging() ? std::nullopt : under_cursor());
+    if (camera_first) {
+        return;
+    }
+    const PickSurface* surface = shown_->pick.get();
+    if (editor.handle(event, camera, surface)) {
+        return;
+    }
+    if (event.kind == InputEvent::Kind::scroll) {
+        navigation.handle(event, camera, std::nullopt);
+    } else if (event.kind == InputEvent::Kind::key_down) {
+        key(event);
+    }
+}
+
+void Session::key(const InputEvent& event) {
+    const int number = event.key;
+    if (event.modifiers.control) {
+        if (number == 'Z') {
+            event.modifiers.shift ? redo() : undo();
+        } else if (number == 'Y') {
+            redo();
+        }
+        return;
+    }
+    const std::array<std::pair<const char*, Vec3>, 3> views{
+        {{"1", Vec3(0, 0, 1)}, {"3", Vec3(1, 0, 0)}, {"7", Vec3(0, 1, 0)}}};
+    for (const auto& [name, direction] : views) {
+        if (number == key_of(name)) {
+            look_from(event.modifiers.shift ? -direction : direction);
+        }
+    }
+    if (number == '5') {
+        camera.orthographic = !camera.orthographic;
+    } else if (number == 'F' || number == key_of("home")) {
+        frame_all();
+    } else if (number == 'W') {
+        view.edges = !view.edges;
+    } else if (number == 'S') {
+        view.flat = !view.flat;
+    } else if (number == 'I') {
+        view.contours = !view.contours;
+    } else if (number == 'D') {
+        editor.metric = editor.metric == Metric::geodesic ? Metric::euclidean : Metric::geodesic;
+        editor.settings_changed();
+    } else if (number == 'T') {
+        camera.trackball = !camera.trackball;
+    } else if (number == key_of("F1")) {
+        view.help = !view.help;
+    } else if (number == key_of("tab")) {
+        view.panels = !view.panels;
+    }
+}
+
+Scene Session::scene() const {
+    Scene scene;
+    if (!shown_->mesh) {
+        return scene;
+    }
+    SceneItem surface;
+    surface.mesh = shown_->mesh;
+    surface.region = shown_->region;
+    surface.model_view = camera.view(shown_->mesh->origin);
+    surface.flat = view.flat;
+    surface.edges = view.edges;
+    surface.tinted = view.tint;
+    surface.contour_spacing = view.contours ? static_cast<float>(editor.radius / 10) : 0.0F;
+    scene.items.push_back(surface);
+    Box all = bounds();
+    if (shown_->drag) { // what is dragged may leave the box
+        for (const Vec3& end : shown_->drag->ends) {
+            all.include(end - Vec3(editor.radius));
+            all.include(end + Vec3(editor.radius));
+        }
+    }
+    if (view.occluders) {
+        std::vector<std::pair<double, SceneItem>> translucent;
+        for (const OccluderView& occluder : shown_->occluders) {
+            SceneItem item;
+            item.mesh = occluder.mesh;
+            item.model_view = model_view(camera, occluder.transform);
+            item.colour = occluder_colour;
+            item.tinted = false;
+            const Placement place = placement(occluder.transform);
+            if (item.mesh->box.empty()) {
+                continue;
+            }
+            const double reach =
+                place.scale * (glm::length(item.mesh->box.centre()) + item.mesh->box.diagonal());
+            all.include(place.origin - Vec3(reach));
+            all.include(place.origin + Vec3(reach));
+            translucent.emplace_back(camera.project(place.origin).depth, item);
+        }
+        std::stable_sort(translucent.begin(), translucent.end(),
+                         [](const auto& a, const auto& b) { return a.first > b.first; });
+        for (auto& [depth, item] : translucent) {
+            scene.items.push_back(std::move(item));
+        }
+    }
+    scene.projection = camera.projection(all);
+    scene.orthographic = camera.orthographic;
+    return scene;
+}
+
+} // namespace anvil

@@ -1,0 +1,101 @@
+// The viewer without its window: what events, panels and scripts do, and what is to be drawn.
+#pragma once
+
+#include "app/viewer/editor.h"
+#include "app/viewer/navigation.h"
+#include "app/viewer/scene.h"
+#include "app/viewer/workbench.h"
+#include "app/viewer/worker.h"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace anvil {
+
+/// How things are drawn.
+struct ViewSettings {
+    bool flat = false;
+    bool edges = false;
+    bool tint = true;
+    bool contours = true;
+    bool occluders = true;
+    bool help = false;
+    bool panels = true;
+};
+
+/// A sentence for the person at the window.
+struct Notice {
+    bool is_error = false;
+    std::string text;
+};
+
+class Session {
+  public:
+    /// `changed` is called, from any thread, when there is something new to draw. @throws DeviceError
+    Session(std::shared_ptr<Device> device, const std::string& choice, std::function<void()> changed);
+    ~Session();
+
+    Editor editor;
+    OrbitCamera camera;
+    Navigation navigation;
+    ViewSettings view;
+
+    /// What no panel took.
+    void handle(const InputEvent& event);
+    /// Once a frame: hands on what the editor wants, takes up what the worker has done.
+    void update();
+
+    // What a person can ask for.
+    void open(const std::filesystem::path& file, const std::filesystem::path& mesh = {});
+    /// The youngest of the sessions that died.
+    void recover();
+    void forget_lost();                           ///< for good
+    void leave_lost() { lost_.clear(); }          ///< the next start asks again
+    void save(const std::filesystem::path& file); ///< .json: the recipe, else the mesh
+    void undo();
+    void redo();
+    void commit();
+    void drop();
+    void cancel_work() { worker_->cancel(); }
+    void use_device(const std::string& choice);
+    /// Another recipe, as one step; `merge` as Document::change().
+    void change(const Recipe& next, const std::string& what, const std::string& merge = {});
+    void frame_all();
+    void look_from(const Vec3& direction);
+
+    const Shown& shown() const { return *shown_; }
+    Scene scene() const;
+    /// Nothing is under way and all that was asked for is shown.
+    bool settled() const;
+    WorkerState work() const { return worker_->state(); }
+    const std::vector<Notice>& notices() const { return notices_; }
+    void dismiss_notices() { notices_.clear(); }
+    const std::vector<std::shared_ptr<LostSession>>& lost() const { return lost_; }
+    const std::vector<std::string>& device_choices() const { return device_choices_; }
+    std::optional<Vec3> under_cursor() const;
+    /// Of the whole surface, drag and occluders left out.
+    Box bounds() const;
+
+  private:
+    void key(const InputEvent& event);
+    void take_up();
+    void failed(std::exception_ptr error);
+    void ask(const std::string& what, Worker::Job job, const std::string& replaces = "");
+
+    std::shared_ptr<Device> device_;
+    std::unique_ptr<Workbench> bench_;
+    std::shared_ptr<const Shown> shown_;
+    std::filesystem::path opened_; ///< what the camera was last set for
+    std::vector<Notice> notices_;
+    std::vector<std::string> device_choices_;
+    std::vector<std::shared_ptr<LostSession>> lost_; ///< the youngest first
+    std::mutex mutex_;                               ///< of what the worker says
+    std::vector<Notice> said_;
+    std::unique_ptr<Worker> worker_; ///< last: it uses all else
+};
+
+} // namespace anvil

@@ -1,0 +1,184 @@
+#include "app/viewer/viewer.h"
+
+#include "app/backend_choice.h"
+#include "app/viewer/overlay.h"
+#include "app/viewer/painter.h"
+#include "app/viewer/panels.h"
+#include "app/viewer/script_player.h"
+#include "app/viewer/session.h"
+#include "app/viewer/ui.h"
+#include "engine/core/error.h"
+
+#include <chrono>
+#include <imgui.h>
+
+namespace anvil {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr WindowSize first_size{1280, 800};
+constexpr double idle_wait = 0.5;     // seconds; panels blink no faster
+constexpr double rest_before = 0.25;  // seconds without a change before a frame is drawn finely
+constexpr int frames_after_event = 3; // panels answer an event a frame or two later
+
+std::shared_ptr<Device> open_device() {
+    DeviceOptions options;
+    options.instance_extensions = Window::instance_extensions();
+    options.device_extensions = {"VK_KHR_swapchain"};
+    return std::make_shared<Device>(options);
+}
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+bool is_shortcut(const InputEvent& event, const char* key) {
+    return event.kind == InputEvent::Kind::key_down && event.modifiers.control && event.key == key_of(key);
+}
+
+class Viewer {
+  public:
+    explicit Viewer(const ViewerOptions& options)
+        : options_(options), window_(first_size, "Anvil"), device_(open_device()),
+          ui_(window_, window_.scale()), painter_(*device_, window_),
+          session_(device_, options.device, [] { Window::wake(); }) {
+        if (!options.script.empty()) {
+            player_.emplace(options.script);
+        }
+        if (!options.file.empty()) {
+            session_.open(options.file);
+        }
+    }
+
+    void run() {
+        while (!ended()) {
+            frame();
+        }
+        if (!options_.screenshot.empty()) {
+            write_png(options_.screenshot, painter_.picture());
+        }
+    }
+
+    const std::shared_ptr<Device>& device() const { return device_; }
+
+  private:
+    /// A script ends with its last line; a screenshot alone with the first picture that shows all.
+    bool ended() const {
+        if (panels_.quit()) {
+            return true;
+        }
+        if (player_) {
+            return player_->done();
+        }
+        return !options_.screenshot.empty() && painted_settled_ > 2;
+    }
+
+    bool unattended() const { return player_ || !options_.screenshot.empty(); }
+
+    void frame() {
+        take_events();
+        session_.update();
+        const WindowSize size = window_.framebuffer_size();
+        if (size.empty()) {
+            window_.take_events(idle_wait); // minimized
+            return;
+        }
+        session_.camera.set_window(size.width, size.height);
+        const auto start = Clock::now();
+        ui_.begin_frame(size, seconds_since(last_frame_));
+        last_frame_ = start;
+        draw_overlay(session_);
+        panels_.show(session_, times_);
+        ImGui::Render();
+        // The CPU draws several samples a pixel only once all is at rest.
+        const bool fine = !painter_.draws_on_cpu() || resting();
+        fine_ = painter_.paint(session_.scene(), *ImGui::GetDrawData(), fine) && fine;
+        times_.milliseconds = 1000 * seconds_since(start);
+        painted_settled_ = session_.settled() && session_.shown().mesh ? painted_settled_ + 1 : 0;
+        write_pictures();
+        complain_of_nothing();
+    }
+
+    /// Nobody reads the window: where nothing could be opened, its messages are the program's.
+    void complain_of_nothing() const {
+        if (!player_ && unattended() && session_.settled() && !session_.shown().mesh) {
+            throw InputError(session_.notices().empty() ? "a screenshot wants a mesh or a recipe, or a script"
+                                                        : session_.notices().back().text);
+        }
+    }
+
+    bool resting() const {
+        return unattended() ? session_.settled() : seconds_since(last_change_) > rest_before;
+    }
+
+    void take_events() {
+        const bool hurry = frames_due_ > 0 || unattended();
+        std::vector<InputEvent> events = window_.take_events(hurry ? 0 : fine_ ? idle_wait : rest_before);
+        if (player_) {
+            // Nobody is there: what the window itself says of mouse and keys would disturb the script.
+            std::erase_if(events, [](const InputEvent& e) { return e.kind != InputEvent::Kind::close; });
+            const std::vector<InputEvent> played = player_->next(session_, window_);
+            events.insert(events.end(), played.begin(), played.end());
+        }
+        for (const InputEvent& event : events) {
+            handle(event);
+        }
+        const bool changed = !events.empty() || !session_.settled() || Ui::active();
+        frames_due_ = changed ? frames_after_event : std::max(frames_due_ - 1, 0);
+        if (changed) {
+            last_change_ = Clock::now();
+        }
+    }
+
+    void handle(const InputEvent& event) {
+        if (event.kind == InputEvent::Kind::close) {
+            panels_.ask_to_quit(session_);
+        } else if (is_shortcut(event, "o")) {
+            panels_.ask_to_open();
+        } else if (is_shortcut(event, "s")) {
+            panels_.ask_to_save(session_);
+        } else if (!ui_.handle(event) || session_.editor.dragging()) {
+            session_.handle(event);
+        }
+    }
+
+    void write_pictures() {
+        if (!player_) {
+            return;
+        }
+        for (const std::string& file : player_->take_pictures()) {
+            write_png(file, painter_.picture());
+        }
+    }
+
+    ViewerOptions options_;
+    Window window_;
+    std::shared_ptr<Device> device_;
+    Ui ui_;
+    Painter painter_;
+    Session session_;
+    Panels panels_;
+    std::optional<ScriptPlayer> player_;
+    FrameTimes times_;
+    Clock::time_point last_frame_ = Clock::now();
+    Clock::time_point last_change_ = Clock::now();
+    int frames_due_ = frames_after_event;
+    int painted_settled_ = 0;
+    bool fine_ = false;
+};
+
+} // namespace
+
+void run_viewer(const ViewerOptions& options) {
+    std::shared_ptr<Device> device;
+    {
+        Viewer viewer(options);
+        device = viewer.device();
+        viewer.run();
+    }
+    check_validation(device);
+}
+
+} // namespace anvil

@@ -1,0 +1,348 @@
+#include "app/viewer/workbench.h"
+
+#include "app/backend_choice.h"
+#include "engine/core/error.h"
+#include "engine/core/file_cache.h"
+#include "engine/core/user_folder.h"
+#include "engine/forge/edit_region.h"
+#include "engine/gpu/gpu_backend.h"
+#include "engine/occluder/shown_surface.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace anvil {
+
+namespace {
+
+constexpr int occluder_cells = 64;
+
+/// Keeps the surface that it picks on.
+struct KeptPick {
+    std::shared_ptr<const SurfaceVersion> surface;
+    PickSurface pick;
+
+    explicit KeptPick(std::shared_ptr<const SurfaceVersion> version)
+        : surface(std::move(version)), pick(*surface->mesh, *surface->history, surface->positions) {}
+};
+
+std::shared_ptr<const PickSurface> pick_of(const std::shared_ptr<const SurfaceVersion>& surface) {
+    const auto kept = std::make_shared<const KeptPick>(surface);
+    return {kept, &kept->pick};
+}
+
+std::vector<RegionMark> marks_of(const EditRegion& region) {
+    const size_t n = region.vertices.size();
+    std::vector<RegionMark> marks(n, {0, static_cast<float>(infinity)});
+    for (size_t j = 0; j < region.shapes.size(); ++j) {
+        for (size_t i = 0; i < n; ++i) {
+            const double t = region.fields[j * n + i];
+            if (t <= 1) {
+                const auto weight = static_cast<float>(std::abs(region.shapes[j](t)));
+                marks[i].weight = std::max(marks[i].weight, weight);
+                marks[i].distance = std::min(marks[i].distance, static_cast<float>(t * region.radii[j]));
+            }
+        }
+    }
+    for (RegionMark& mark : marks) {
+        mark = std::isfinite(mark.distance) ? mark : RegionMark{};
+    }
+    return marks;
+}
+
+/// Where each handle is, by the vertices that carry it.
+std::vector<Vec3> handle_ends(const EditRegion& region, std::span<const Vec3> positions,
+                              std::span<const Vec3> at_rest) {
+    std::vector<Vec3> ends;
+    for (const auto& weights : region.handle_weights) {
+        Vec3 end(0);
+        for (const VertexWeight& w : weights) {
+            const auto found = std::lower_bound(region.vertices.begin(), region.vertices.end(), w.vertex);
+            const bool moves = found != region.vertices.end() && *found == w.vertex;
+            end += w.weight * (moves ? positions[static_cast<size_t>(found - region.vertices.begin())]
+                                     : at_rest[w.vertex]);
+        }
+        ends.push_back(end);
+    }
+    return ends;
+}
+
+Buffer narrow_buffer(DeviceState& device, const std::vector<Vec3>& values, const Vec3& origin) {
+    std::vector<glm::vec3> narrow;
+    narrow.reserve(values.size());
+    std::transform(values.begin(), values.end(), std::back_inserter(narrow),
+                   [&](const Vec3& v) { return glm::vec3(v - origin); });
+    return storage_buffer(device, std::span<const glm::vec3>(narrow));
+}
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace
+
+Workbench::Workbench(std::shared_ptr<Device> device, const std::string& choice)
+    : device_(std::move(device)), fields_(user_cache()), autosave_(user_state_folder()),
+      shown_(std::make_shared<const Shown>()) {
+    Progress progress;
+    use_device(choice, progress);
+}
+
+Workbench::~Workbench() = default;
+
+std::shared_ptr<const Shown> Workbench::shown() const {
+    const std::lock_guard lock(mutex_);
+    return shown_;
+}
+
+std::vector<std::string> Workbench::take_warnings() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(warnings_, {});
+}
+
+void Workbench::publish(const Shown& next) {
+    const std::lock_guard lock(mutex_);
+    shown_ = std::make_shared<const Shown>(next);
+    warnings_.insert(warnings_.end(), log_.warnings.begin(), log_.warnings.end());
+    log_.warnings.clear();
+}
+
+Document& Workbench::document() {
+    if (!document_) {
+        throw InputError("nothing is open; open a mesh or a recipe first");
+    }
+    return *document_;
+}
+
+void Workbench::use_device(const std::string& choice, Progress& progress) {
+    std::string wanted = choice;
+    if (choice == "auto") {
+        const auto best = automatic_device(devices_or_none(log_));
+        wanted = best ? std::to_string(*best) : "cpu";
+    }
+    std::shared_ptr<Backend> next;
+    if (wanted == "cpu") {
+        next = make_cpu_backend();
+    } else {
+        const std::vector<DeviceInfo> devices = list_devices();
+        const size_t index = choose_device(devices, wanted);
+        const bool same = devices[index].index == device_->info().index;
+        // What the drawing device deforms is drawn where it lies.
+        next = make_gpu_backend(
+            same ? device_ : std::make_shared<Device>(DeviceOptions{.choice = std::to_string(index)}));
+    }
+    const std::optional<Edit> dragged = session_ ? std::optional(session_->edit()) : std::nullopt;
+    session_.reset();
+    backend_ = std::move(next);
+    if (document_) {
+        document_->change_backend(work(progress));
+        show_document(progress);
+        if (dragged) {
+            preview(*dragged, progress);
+        }
+    } else {
+        Shown empty;
+        empty.device = backend_->device_name();
+        publish(empty);
+    }
+}
+
+void Workbench::open(const std::filesystem::path& file, const std::filesystem::path& mesh,
+                     Progress& progress) {
+    take_document(Document::open(file, work(progress), document_options(), mesh), progress);
+}
+
+void Workbench::recover(LostSession& lost, Progress& progress) {
+    take_document(Document::open_unsaved(lost.recipe, work(progress), document_options()), progress);
+    lost.discard(); // it is in this session's own file now
+}
+
+DocumentOptions Workbench::document_options() const {
+    DocumentOptions options;
+    options.fields = fields_ ? &*fields_ : nullptr;
+    return options;
+}
+
+void Workbench::take_document(std::unique_ptr<Document> opened, Progress& progress) {
+    drop_preview();
+    scene_.reset();
+    surface_.reset();
+    occluders_.reset();
+    recipe_.reset();
+    document_ = std::move(opened);
+    show_document(progress);
+}
+
+/// Also what the next drag starts from, so that it starts at once.
+void Workbench::show_document(Progress& progress) {
+    session_.reset();
+    if (document().unsaved()) {
+        autosave_.commit(document().recipe(), log_);
+    } else {
+        autosave_.forget();
+    }
+    Shown next;
+    next.document = document().state();
+    const std::shared_ptr<const SurfaceVersion>& surface = next.document.surface;
+    const std::shared_ptr<const Shown> before = shown();
+    const bool same_surface = surface_ == surface && before->mesh;
+    next.mesh = same_surface ? before->mesh
+                             : std::make_shared<DrawnMesh>(device_->state(), *surface->mesh,
+                                                           surface->positions, surface->frame.origin, true);
+    next.pick = same_surface ? before->pick : pick_of(surface);
+    next.recipe_file = document().recipe_file();
+    next.mesh_file = document().mesh_file();
+    next.device = backend_->device_name();
+    make_occluders(progress);
+    for (const Occluder& occluder : recipe_->occluders) {
+        next.occluders.push_back(
+            {occluder.name, occluder_meshes_.at(occluder.name).second, occluder.transform});
+    }
+    if (!same_surface) {
+        scene_.reset();
+        surface_ = surface;
+    }
+    publish(next);
+    scene().warm();
+}
+
+DragScene& Workbench::scene() {
+    if (!scene_) {
+        scene_ = std::make_unique<DragScene>(*surface_->mesh, surface_->positions, *surface_->history,
+                                             document().solvers());
+    }
+    return *scene_;
+}
+
+void Workbench::make_occluders(Progress& progress) {
+    recipe_ = document().state().recipe;
+    occluders_.emplace(document().occluders(*recipe_, work(progress)));
+    std::map<std::string, std::pair<OccluderShape, std::shared_ptr<DrawnMesh>>> meshes;
+    Box scene;
+    for (const Vec3& p : document().surface()->positions) {
+        scene.include(p);
+    }
+    for (const Occluder& occluder : recipe_->occluders) {
+        const auto known = occluder_meshes_.find(occluder.name);
+        // A plane's patch lies where the scene is.
+        const bool is_plane = std::holds_alternative<PlaneShape>(occluder.shape.solid);
+        if (known != occluder_meshes_.end() && known->second.first == occluder.shape && !is_plane) {
+            meshes.insert(*known);
+            continue;
+        }
+        const Mesh surface = shown_surface(occluder.shape, placement(occluder.transform), scene,
+                                           {recipe_folder(*recipe_), nullptr}, occluder_cells);
+        meshes[occluder.name] = {
+            occluder.shape,
+            std::make_shared<DrawnMesh>(device_->state(), surface, surface.positions, Vec3(0), false)};
+    }
+    occluder_meshes_ = std::move(meshes);
+}
+
+void Workbench::preview(const Edit& edit, Progress& /*progress*/) {
+    Recipe underway = document().recipe();
+    underway.edits.push_back(with_poses(underway, edit));
+    const auto start = std::chrono::steady_clock::now();
+    if (session_) {
+        session_->update(edit, *occluders_);
+    } else {
+        session_ = std::make_unique<DragSession>(scene(), *occluders_, *backend_, edit, log_);
+        regions_seen_ = 0;
+        shapes_seen_ = 0;
+    }
+    session_->wait();
+    show_drag(milliseconds_since(start));
+    autosave_.offer(underway, log_);
+}
+
+void Workbench::show_drag(double milliseconds) {
+    const EditRegion& region = session_->region();
+    Shown next = *shown();
+    next.region = drawn_region();
+    next.device = session_->device_name();
+    DragView view{session_->edit(),
+                  region.handle_positions,
+                  {},
+                  region.vertices.size(),
+                  session_->motion().solution.condition,
+                  milliseconds};
+    view.ends = handle_ends(region, session_->positions(), surface_->positions);
+    next.drag = std::move(view);
+    publish(next);
+}
+
+std::shared_ptr<const DrawnRegion> Workbench::drawn_region() {
+    auto drawn = std::make_shared<DrawnRegion>();
+    drawn->vertices = session_->normal_vertices();
+    const DragWork& done = session_->work();
+    if (!marks_ || done.regions != regions_seen_ || done.shapes != shapes_seen_) {
+        marks_ = std::make_shared<Buffer>(
+            storage_buffer(device_->state(), std::span<const RegionMark>(marks_of(session_->region()))));
+        regions_seen_ = done.regions;
+        shapes_seen_ = done.shapes;
+    }
+    drawn->marks = marks_;
+    drawn->kept = session_->session();
+    if (const auto surface = device_surface(*drawn->kept, *device_)) {
+        drawn->surface = *surface;
+        return drawn;
+    }
+    const Vec3 origin = surface_->frame.origin;
+    drawn->ends = narrow_buffer(device_->state(), session_->positions(), origin);
+    drawn->normals = narrow_buffer(device_->state(), session_->normals(), Vec3(0));
+    drawn->surface = {drawn->ends.handle(), drawn->normals.handle(),
+                      static_cast<uint32_t>(session_->region().vertices.size()),
+                      static_cast<uint32_t>(drawn->vertices.size())};
+    return drawn;
+}
+
+void Workbench::drop_preview() {
+    session_.reset();
+    marks_.reset();
+    Shown next = *shown();
+    next.region.reset();
+    next.drag.reset();
+    publish(next);
+}
+
+void Workbench::commit(const Edit& edit, const std::string& what, Progress& progress) {
+    Recipe next = document().recipe();
+    next.edits.push_back(with_poses(next, edit));
+    change(next, what, "", progress);
+}
+
+void Workbench::change(const Recipe& next, const std::string& what, const std::string& merge,
+                       Progress& progress) {
+    try {
+        document().change(next, what, work(progress), merge);
+    } catch (...) {
+        drop_preview();
+        throw;
+    }
+    show_document(progress);
+}
+
+void Workbench::undo(Progress& progress) {
+    document().undo(work(progress));
+    show_document(progress);
+}
+
+void Workbench::redo(Progress& progress) {
+    document().redo(work(progress));
+    show_document(progress);
+}
+
+void Workbench::save_recipe(const std::filesystem::path& file) {
+    document().save_recipe(file);
+    autosave_.forget();
+    Shown next = *shown();
+    next.document = document().state();
+    next.recipe_file = document().recipe_file();
+    publish(next);
+}
+
+void Workbench::save_mesh(const std::filesystem::path& file) {
+    document().save_mesh(file);
+}
+
+} // namespace anvil

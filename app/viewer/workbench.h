@@ -1,0 +1,114 @@
+// What the viewer works on beside the window: the document and the drag under way. For the worker's thread;
+// what it shows can be looked at from any.
+#pragma once
+
+#include "app/viewer/drawn_mesh.h"
+#include "app/viewer/pick_surface.h"
+#include "engine/document/autosave.h"
+#include "engine/document/document.h"
+#include "engine/forge/drag_session.h"
+#include "engine/gpu/device.h"
+#include "engine/occluder/occluder_set.h"
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace anvil {
+
+/// How a drag stands.
+struct DragView {
+    Edit edit;
+    std::vector<Vec3> starts; ///< of the handles
+    std::vector<Vec3> ends;   ///< where they are: not always where they are wanted, past an occluder
+    size_t region = 0;        ///< vertices
+    double condition = 1;
+    double milliseconds = 0; ///< of the last update
+};
+
+/// An occluder in its own space, and where it is.
+struct OccluderView {
+    std::string name;
+    std::shared_ptr<DrawnMesh> mesh;
+    Transform transform;
+};
+
+/// One state of the workbench; never changed once it is shown.
+struct Shown {
+    std::shared_ptr<DrawnMesh> mesh; ///< nullptr: nothing is open
+    std::shared_ptr<const PickSurface> pick;
+    std::shared_ptr<const DrawnRegion> region;
+    DocumentState document;
+    std::filesystem::path recipe_file; ///< empty: not saved yet
+    std::filesystem::path mesh_file;
+    std::vector<OccluderView> occluders;
+    std::optional<DragView> drag;
+    std::string device;
+};
+
+class Workbench {
+  public:
+    /// `device` draws; the same deforms, unless use_device() says otherwise. @throws DeviceError
+    Workbench(std::shared_ptr<Device> device, const std::string& choice);
+    ~Workbench();
+
+    std::shared_ptr<const Shown> shown() const;
+    /// Warnings since the last call.
+    std::vector<std::string> take_warnings();
+
+    void open(const std::filesystem::path& file, const std::filesystem::path& mesh, Progress& progress);
+    /// What a session that died has left; it is this one's then.
+    void recover(LostSession& lost, Progress& progress);
+    /// `auto`, `cpu`, a device's name or index. The edit under way goes on with it.
+    void use_device(const std::string& choice, Progress& progress);
+
+    /// Shows the edit at the end of the recipe, without taking it. @throws InputError: the one before stays
+    void preview(const Edit& edit, Progress& progress);
+    void drop_preview();
+    /// Takes the edit into the recipe. It is dropped if that fails.
+    void commit(const Edit& edit, const std::string& what, Progress& progress);
+    /// Takes another recipe: occluders, past edits.
+    void change(const Recipe& next, const std::string& what, const std::string& merge, Progress& progress);
+    void undo(Progress& progress);
+    void redo(Progress& progress);
+
+    void save_recipe(const std::filesystem::path& file);
+    void save_mesh(const std::filesystem::path& file);
+
+  private:
+    EditWork work(Progress& progress) { return {*backend_, log_, progress}; }
+    Document& document();
+    DragScene& scene();
+    void take_document(std::unique_ptr<Document> opened, Progress& progress);
+    DocumentOptions document_options() const;
+    void make_occluders(Progress& progress);
+    void show_document(Progress& progress);
+    void show_drag(double milliseconds);
+    std::shared_ptr<const DrawnRegion> drawn_region();
+    void publish(const Shown& next);
+
+    std::shared_ptr<Device> device_;   ///< that draws
+    std::shared_ptr<Backend> backend_; ///< that deforms
+    std::optional<FileCache> fields_;  ///< baked ones, between runs
+    Log log_;
+    Autosave autosave_;
+    std::unique_ptr<Document> document_;
+    std::shared_ptr<const SurfaceVersion> surface_; ///< that `scene_` is of
+    std::unique_ptr<DragScene> scene_;
+    std::shared_ptr<const Recipe> recipe_; ///< that `occluders_` are of
+    std::optional<EditOccluders> occluders_;
+    std::unique_ptr<DragSession> session_;
+    size_t regions_seen_ = 0; ///< of the session's work: what the last region was made of
+    size_t shapes_seen_ = 0;
+    std::shared_ptr<Buffer> marks_;
+    std::map<std::string, std::pair<OccluderShape, std::shared_ptr<DrawnMesh>>> occluder_meshes_;
+
+    mutable std::mutex mutex_; ///< of what follows
+    std::shared_ptr<const Shown> shown_;
+    std::vector<std::string> warnings_;
+};
+
+} // namespace anvil
