@@ -13,9 +13,9 @@ namespace anvil {
 
 /// On the device: made once, then only drawn. From any thread.
 struct DrawnMesh {
-    /// `positions` (world) of the mesh's vertices; drawn relative to `origin`, and what is not finite with
+    /// `places` (world) of the mesh's vertices; drawn relative to `centre`, and what is not finite with
     /// its triangles not at all. `editable`: a DrawnRegion may move a part. @throws DeviceError
-    DrawnMesh(DeviceState& device, const Mesh& mesh, std::span<const Vec3> positions, const Vec3& origin,
+    DrawnMesh(DeviceState& device, const Mesh& mesh, std::span<const Vec3> places, const Vec3& centre,
               bool editable);
 
     Vec3 origin{0};

@@ -34,6 +34,9 @@ constexpr const char* key_help =
     "  F, Home              show all    T   trackball or turntable\n"
     "  W S I                edges, flat shading, lines of equal distance\n"
     "  D                    distances along the surface or straight\n"
+    "Curve\n"
+    "  drag a knot or the end of its slope (Alt: one side, a kink)\n"
+    "  double click: a new knot     right click: without it\n"
     "Program\n"
     "  Ctrl+Z, Ctrl+Shift+Z undo, redo\n"
     "  Ctrl+O, Ctrl+S       open, save the recipe     Tab   panels     F1   this help\n";
@@ -64,27 +67,6 @@ bool shape_combo(const char* label, ShapeChoice& shape) {
     return changed;
 }
 
-void draw_curve(const ShapeChoice& choice) {
-    const ImVec2 size(ImGui::GetContentRegionAvail().x, 90);
-    const ImVec2 low = ImGui::GetCursorScreenPos();
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(low, ImVec2(low.x + size.x, low.y + size.y), IM_COL32(25, 26, 30, 255), 3);
-    const ShapeFunction phi = make_shape_function(choice);
-    const double top = std::max(1.0, phi.max_magnitude());
-    constexpr int steps = 80;
-    std::array<ImVec2, steps + 1> points;
-    for (int i = 0; i <= steps; ++i) {
-        const double t = static_cast<double>(i) / steps;
-        points[static_cast<size_t>(i)] =
-            ImVec2(low.x + static_cast<float>(t) * size.x,
-                   low.y + size.y * static_cast<float>(0.5 - 0.45 * phi(t) / top));
-    }
-    const float zero = low.y + 0.5F * size.y;
-    list.AddLine(ImVec2(low.x, zero), ImVec2(low.x + size.x, zero), IM_COL32(70, 72, 80, 255));
-    list.AddPolyline(points.data(), steps + 1, IM_COL32(255, 176, 32, 255), 0, 2);
-    ImGui::Dummy(size);
-}
-
 } // namespace
 
 void Panels::ask_to_quit(const Session& session) {
@@ -107,6 +89,7 @@ void Panels::show(Session& session, const FrameTimes& times) {
     if (session.view.panels) {
         settings(session);
         edits(session);
+        occluders_.show(session);
     }
     status(session, times);
     notices(session);
@@ -132,6 +115,15 @@ void Panels::menu(Session& session) {
         const bool open = session.shown().mesh != nullptr;
         if (ImGui::MenuItem("Open mesh or recipe...", "Ctrl+O")) {
             ask_to_open();
+        }
+        if (ImGui::BeginMenu("Open again", !session.recent().empty())) {
+            for (const std::filesystem::path& file : session.recent()) {
+                if (ImGui::MenuItem(file.string().c_str())) {
+                    session.open(file);
+                    break; // the list is another one then
+                }
+            }
+            ImGui::EndMenu();
         }
         if (ImGui::MenuItem("Save recipe", "Ctrl+S", false, open)) {
             ask_to_save(session);
@@ -206,7 +198,7 @@ void Panels::settings(Session& session) {
     const double diagonal = std::max(session.bounds().diagonal(), 1e-30);
     bool changed = length_slider("radius", editor.radius, diagonal);
     changed = shape_combo("shape", editor.shape) || changed;
-    draw_curve(editor.shape);
+    changed = curve_.show(editor.shape) || changed;
     int metric = editor.metric == Metric::euclidean ? 1 : 0;
     if (ImGui::Combo("distance", &metric, "along the surface\0straight\0")) {
         editor.metric = metric == 1 ? Metric::euclidean : Metric::geodesic;

@@ -1,6 +1,8 @@
 // What is laid over the picture: menus, settings, the list of edits, marks of handles, the status bar.
 #pragma once
 
+#include "app/viewer/curve_editor.h"
+#include "app/viewer/occluder_panel.h"
 #include "app/viewer/session.h"
 
 namespace anvil {
@@ -34,6 +36,8 @@ class Panels {
     enum class FileQuestion : uint8_t { none, open, save_recipe, save_mesh };
     FileQuestion question_ = FileQuestion::none;
     std::string path_;
+    CurveEditor curve_;
+    OccluderPanel occluders_;
     bool asks_to_quit_ = false;
     bool quit_ = false;
 };

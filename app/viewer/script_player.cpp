@@ -1,5 +1,6 @@
 #include "app/viewer/script_player.h"
 
+#include "app/viewer/occluder_panel.h"
 #include "engine/core/error.h"
 #include "engine/core/number_text.h"
 #include "engine/gpu/picture.h"
@@ -29,28 +30,6 @@ MouseButton button_of(const std::string& name) {
                                   : MouseButton::right;
     }
     throw InputError("there is no button \"" + name + "\"; there are left, middle and right");
-}
-
-OccluderShape shape_of(const std::string& name, double size) {
-    if (name == "sphere") {
-        return {SphereShape{size}};
-    }
-    if (name == "box") {
-        return {BoxShape{Vec3(size), 0}};
-    }
-    if (name == "cylinder") {
-        return {CylinderShape{size, 2 * size}};
-    }
-    if (name == "capsule") {
-        return {CapsuleShape{size, 2 * size}};
-    }
-    if (name == "torus") {
-        return {TorusShape{size, 0.3 * size}};
-    }
-    if (name == "plane") {
-        return {PlaneShape{Vec3(0, 1, 0), 0}};
-    }
-    return {MeshShape{name}};
 }
 
 Recipe recipe_of(const Session& session) {
@@ -212,7 +191,7 @@ void ScriptPlayer::change_occluder(const ScriptLine& line, Session& session) con
         need(5, "add NAME SHAPE SIZE X,Y,Z");
         Occluder occluder;
         occluder.name = with[1];
-        occluder.shape = shape_of(with[2], script_number(with[3]));
+        occluder.shape = occluder_shape(with[2], script_number(with[3]));
         occluder.transform.translate = point_of(with[4]);
         next.occluders.push_back(occluder);
         session.change(next, "new occluder");

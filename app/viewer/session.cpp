@@ -37,7 +37,8 @@ glm::mat4 model_view(const OrbitCamera& camera, const Transform& transform) {
 
 Session::Session(std::shared_ptr<Device> device, const std::string& choice, std::function<void()> changed)
     : device_(std::move(device)), bench_(std::make_unique<Workbench>(device_, choice)),
-      shown_(bench_->shown()), device_choices_{"cpu"} {
+      shown_(bench_->shown()), device_choices_{"cpu"}, recent_files_(user_state_folder()),
+      recent_(recent_files_.list()) {
     Log log;
     for (LostSession& lost : lost_sessions(user_state_folder(), log)) {
         lost_.push_back(std::make_shared<LostSession>(std::move(lost)));
@@ -118,6 +119,7 @@ void Session::change(const Recipe& next, const std::string& what, const std::str
     ask(
         what, [this, next, what, merge](Progress& progress) { bench_->change(next, what, merge, progress); },
         merge.empty() ? "" : "change " + merge);
+    editor.settings_changed(); // handles that are placed act on the new state
 }
 
 void Session::commit() {
@@ -169,13 +171,16 @@ void Session::take_up() {
     }
     if (shown_->mesh && shown_->mesh_file != opened_) {
         opened_ = shown_->mesh_file;
+        recent_files_.add(shown_->recipe_file.empty() ? shown_->mesh_file : shown_->recipe_file);
+        recent_ = recent_files_.list();
         editor.radius = default_radius * bounds().diagonal();
         camera.frame(shown_->document.surface->positions, Vec3(0.35, 0.25, 1.0));
     }
 }
 
 bool Session::settled() const {
-    return worker_->idle() && shown_ == bench_->shown();
+    const std::lock_guard lock(mutex_);
+    return worker_->idle() && shown_ == bench_->shown() && said_.empty();
 }
 
 Box Session::bounds() const {

@@ -6,6 +6,7 @@
 #include "app/viewer/scene.h"
 #include "app/viewer/workbench.h"
 #include "app/viewer/worker.h"
+#include "engine/document/recent_files.h"
 
 #include <filesystem>
 #include <functional>
@@ -74,6 +75,7 @@ class Session {
     WorkerState work() const { return worker_->state(); }
     const std::vector<Notice>& notices() const { return notices_; }
     void dismiss_notices() { notices_.clear(); }
+    const std::vector<std::filesystem::path>& recent() const { return recent_; }
     const std::vector<std::shared_ptr<LostSession>>& lost() const { return lost_; }
     const std::vector<std::string>& device_choices() const { return device_choices_; }
     std::optional<Vec3> under_cursor() const;
@@ -92,8 +94,10 @@ class Session {
     std::filesystem::path opened_; ///< what the camera was last set for
     std::vector<Notice> notices_;
     std::vector<std::string> device_choices_;
+    RecentFiles recent_files_;
+    std::vector<std::filesystem::path> recent_;      ///< the last one first
     std::vector<std::shared_ptr<LostSession>> lost_; ///< the youngest first
-    std::mutex mutex_;                               ///< of what the worker says
+    mutable std::mutex mutex_;                               ///< of what the worker says
     std::vector<Notice> said_;
     std::unique_ptr<Worker> worker_; ///< last: it uses all else
 };

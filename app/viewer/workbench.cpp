@@ -3,6 +3,7 @@
 #include "app/backend_choice.h"
 #include "engine/core/error.h"
 #include "engine/core/file_cache.h"
+#include "engine/core/number_text.h"
 #include "engine/core/user_folder.h"
 #include "engine/forge/edit_region.h"
 #include "engine/gpu/gpu_backend.h"
@@ -16,6 +17,7 @@ namespace anvil {
 namespace {
 
 constexpr int occluder_cells = 64;
+constexpr double worst_condition = 1e6; ///< beyond, the last digit of a mouse's place shows
 
 /// Keeps the surface that it picks on.
 struct KeptPick {
@@ -244,7 +246,9 @@ void Workbench::preview(const Edit& edit, Progress& /*progress*/) {
     underway.edits.push_back(with_poses(underway, edit));
     const auto start = std::chrono::steady_clock::now();
     if (session_) {
+        const Edit before = session_->edit();
         session_->update(edit, *occluders_);
+        refuse_ill_conditioned(before);
     } else {
         session_ = std::make_unique<DragSession>(scene(), *occluders_, *backend_, edit, log_);
         regions_seen_ = 0;
@@ -253,6 +257,18 @@ void Workbench::preview(const Edit& edit, Progress& /*progress*/) {
     session_->wait();
     show_drag(milliseconds_since(start));
     autosave_.offer(underway, log_);
+}
+
+void Workbench::refuse_ill_conditioned(const Edit& before) {
+    const double condition = session_->motion().solution.condition;
+    if (condition <= worst_condition) {
+        return;
+    }
+    session_->update(before, *occluders_);
+    throw InputError("the handles can hardly be told apart with this shape and radius (condition " +
+                     rounded_text(condition) +
+                     "), small moves would throw the surface far; move them apart, use a smaller radius or a "
+                     "steeper curve");
 }
 
 void Workbench::show_drag(double milliseconds) {

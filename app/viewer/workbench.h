@@ -86,6 +86,7 @@ class Workbench {
     DocumentOptions document_options() const;
     void make_occluders(Progress& progress);
     void show_document(Progress& progress);
+    void refuse_ill_conditioned(const Edit& before);
     void show_drag(double milliseconds);
     std::shared_ptr<const DrawnRegion> drawn_region();
     void publish(const Shown& next);

@@ -39,8 +39,8 @@ class SearchTree {
     /// another one.
     void closest(std::span<const Vec3> queries, std::span<ClosestPoint> found) const;
 
-    /// Where a ray from `origin` meets a triangle first, from either side; the result's distance is in lengths
-    /// of `direction`. Nothing is found where it meets none.
+    /// Where a ray from `origin` meets a triangle first, from either side; the result's distance is in
+    /// lengths of `direction`. Nothing is found where it meets none.
     ClosestPoint first_hit(const Vec3& origin, const Vec3& direction) const;
 
     /// Calls visit(triangle) for every triangle whose box is no farther than `reach` from this one, and for

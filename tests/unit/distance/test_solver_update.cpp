@@ -134,7 +134,8 @@ size_t spokes_without_return(const FanTable& table) {
             const Spoke& out = table.spokes[i];
             const auto first = table.spokes.begin() + table.fans[out.vertex].first_spoke;
             const auto end = table.spokes.begin() + table.fans[out.vertex + size_t{1}].first_spoke;
-            const bool tangled = table.fans[out.vertex].total == Fan::tangled || table.fans[v].total == Fan::tangled;
+            const bool tangled =
+                table.fans[out.vertex].total == Fan::tangled || table.fans[v].total == Fan::tangled;
             without += tangled || std::any_of(first, end,
                                               [&](const Spoke& back) {
                                                   return back.vertex == v && back.length == out.length &&
