@@ -57,7 +57,7 @@ Session::Session(std::shared_ptr<Device> device, const std::string& choice, std:
 
 Session::~Session() = default;
 
-void Session::failed(std::exception_ptr error) {
+void Session::failed(const std::exception_ptr& error) {
     const std::lock_guard lock(mutex_);
     said_.push_back({true, text_of(error)});
 }

@@ -85,7 +85,7 @@ class Session {
   private:
     void key(const InputEvent& event);
     void take_up();
-    void failed(std::exception_ptr error);
+    void failed(const std::exception_ptr& error);
     void ask(const std::string& what, Worker::Job job, const std::string& replaces = "");
 
     std::shared_ptr<Device> device_;

@@ -40,7 +40,7 @@ class DragSession {
     /// than any before cuts the region anew; a larger one marches on over the surface, as do further handles
     /// and anchors beside those that stay (see KeptMarches); all else measures distances anew.
     /// @throws InputError if a target is out of reach or the edit is wrong; the edit before stands then.
-    void update(const Edit& edit, const EditOccluders& occluders);
+    void update(const Edit& given, const EditOccluders& occluders);
 
     /// Returns when the last update is done.
     void wait();
