@@ -20,7 +20,7 @@ class RenderTarget {
 
     /// @throws DeviceError if the size exceeds the device's limits or memory is out.
     RenderTarget(DeviceState& device, uint32_t width, uint32_t height, vk::SampleCountFlagBits samples,
-                 vk::Format colour = colour_format);
+                 vk::Format format = colour_format);
 
     /// Starts drawing over a cleared picture (dynamic rendering), viewport and scissor set.
     void begin(const vk::raii::CommandBuffer& commands) const;
