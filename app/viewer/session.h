@@ -97,7 +97,7 @@ class Session {
     RecentFiles recent_files_;
     std::vector<std::filesystem::path> recent_;      ///< the last one first
     std::vector<std::shared_ptr<LostSession>> lost_; ///< the youngest first
-    mutable std::mutex mutex_;                               ///< of what the worker says
+    mutable std::mutex mutex_;                       ///< of what the worker says
     std::vector<Notice> said_;
     std::unique_ptr<Worker> worker_; ///< last: it uses all else
 };
