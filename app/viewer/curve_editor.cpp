@@ -19,7 +19,7 @@ constexpr ImU32 curve_colour = IM_COL32(255, 176, 32, 255);
 constexpr ImU32 knot_colour = IM_COL32(255, 255, 255, 255);
 constexpr ImU32 slope_colour = IM_COL32(64, 150, 255, 255);
 
-/// Places on the canvas: t from left to right, values from -0.3 or less to 1.15 or more.
+/// Places on the canvas: t from left to right, values from `least` to `most` upwards.
 struct Canvas {
     ImVec2 low;
     ImVec2 size;
@@ -43,6 +43,18 @@ double slope_of(const std::optional<double>& given, const ShapeFunction& phi, do
     return given.value_or((phi(t + side * step) - phi(t)) / (side * step));
 }
 
+/// All of the curve, and room to drag it further.
+Canvas canvas_for(const ShapeFunction& phi) {
+    Canvas canvas{ImGui::GetCursorScreenPos(), ImVec2(ImGui::GetContentRegionAvail().x, height), -0.3, 1.15};
+    constexpr int steps = 200;
+    for (int i = 0; i <= steps; ++i) {
+        const double value = 1.1 * phi(static_cast<double>(i) / steps);
+        canvas.least = std::min(canvas.least, value);
+        canvas.most = std::max(canvas.most, value);
+    }
+    return canvas;
+}
+
 void draw_curve(const Canvas& canvas, const ShapeFunction& phi) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(canvas.low, ImVec2(canvas.low.x + canvas.size.x, canvas.low.y + canvas.size.y), ground,
@@ -64,11 +76,7 @@ void draw_curve(const Canvas& canvas, const ShapeFunction& phi) {
 bool CurveEditor::show(ShapeChoice& shape) {
     ShapeChoice own = with_own_knots(shape);
     const ShapeFunction phi = make_shape_function(own);
-    const double top = phi.max_magnitude();
-    const Canvas canvas{
-        ImGui::GetCursorScreenPos(), ImVec2(ImGui::GetContentRegionAvail().x, height),
-        std::min(-0.3, dragged_ == Part::none ? -1.1 * top * (phi.max_magnitude() > 1 ? 1 : 0) : -0.3),
-        std::max(1.15, 1.1 * top)};
+    const Canvas canvas = canvas_for(phi);
     ImGui::InvisibleButton("curve", canvas.size);
     draw_curve(canvas, phi);
     selected_ = std::min(selected_, own.knots.size() - 1);

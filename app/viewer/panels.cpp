@@ -272,7 +272,7 @@ void Panels::edits(Session& session) {
     ImGui::End();
 }
 
-void Panels::status(const Session& session, const FrameTimes& times) const {
+void Panels::status(Session& session, const FrameTimes& times) {
     const ImVec2 window = ImGui::GetIO().DisplaySize;
     const float height = 2 * ImGui::GetTextLineHeightWithSpacing() + 8;
     ImGui::SetNextWindowPos(ImVec2(0, window.y - height));
@@ -306,7 +306,7 @@ void Panels::status(const Session& session, const FrameTimes& times) const {
         ImGui::ProgressBar(static_cast<float>(work.fraction), ImVec2(240, 0), text.c_str());
         ImGui::SameLine();
         if (ImGui::SmallButton("Cancel")) {
-            const_cast<Session&>(session).cancel_work();
+            session.cancel_work();
         }
     }
     ImGui::End();

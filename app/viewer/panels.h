@@ -27,7 +27,7 @@ class Panels {
     void menu(Session& session);
     void settings(Session& session);
     void edits(Session& session);
-    void status(const Session& session, const FrameTimes& times) const;
+    static void status(Session& session, const FrameTimes& times);
     void notices(Session& session) const;
     void file_dialog(Session& session);
     void quit_dialog(Session& session);
