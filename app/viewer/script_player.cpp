@@ -1,6 +1,6 @@
 #include "app/viewer/script_player.h"
 
-#include "app/viewer/occluder_panel.h"
+#include "app/viewer/panels/occluder_panel.h"
 #include "engine/core/error.h"
 #include "engine/core/number_text.h"
 #include "engine/gpu/picture.h"

@@ -1,9 +1,9 @@
 #include "app/viewer/viewer.h"
 
 #include "app/backend_choice.h"
-#include "app/viewer/overlay.h"
 #include "app/viewer/painter.h"
-#include "app/viewer/panels.h"
+#include "app/viewer/panels/overlay.h"
+#include "app/viewer/panels/panels.h"
 #include "app/viewer/script_player.h"
 #include "app/viewer/session.h"
 #include "app/viewer/ui.h"
@@ -66,7 +66,7 @@ class Viewer {
   private:
     /// A script ends with its last line; a screenshot alone with the first picture that shows all.
     bool ended() const {
-        if (panels_.quit()) {
+        if (panels_.files.quit()) {
             return true;
         }
         if (player_) {
@@ -134,11 +134,11 @@ class Viewer {
 
     void handle(const InputEvent& event) {
         if (event.kind == InputEvent::Kind::close) {
-            panels_.ask_to_quit(session_);
+            panels_.files.ask_to_quit(session_);
         } else if (is_shortcut(event, "o")) {
-            panels_.ask_to_open();
+            panels_.files.ask_to_open();
         } else if (is_shortcut(event, "s")) {
-            panels_.ask_to_save(session_);
+            panels_.files.ask_to_save(session_);
         } else if (!ui_.handle(event) || session_.editor.dragging()) {
             session_.handle(event);
         }

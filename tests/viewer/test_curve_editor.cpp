@@ -1,5 +1,5 @@
-#include "app/viewer/curve_editor.h"
-#include "app/viewer/occluder_panel.h"
+#include "app/viewer/panels/curve_editor.h"
+#include "app/viewer/panels/occluder_panel.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "app/viewer/curve_editor.h"
+#include "app/viewer/panels/curve_editor.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "app/viewer/overlay.h"
+#include "app/viewer/panels/overlay.h"
 
 #include <imgui.h>
 

@@ -1,4 +1,6 @@
-#include "app/viewer/occluder_panel.h"
+#include "app/viewer/panels/occluder_panel.h"
+
+#include "app/viewer/panels/controls.h"
 
 #include <array>
 #include <glm/gtc/type_ptr.hpp>
@@ -8,8 +10,6 @@
 namespace anvil {
 
 namespace {
-
-constexpr float width = 290;
 
 bool drag_place(Vec3& place, double size) {
     glm::vec3 narrow(place);
@@ -109,8 +109,8 @@ void OccluderPanel::show(Session& session) {
         return;
     }
     const ImVec2 window = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos(ImVec2(window.x - width - 8, 0.55F * window.y), ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, window.y));
+    ImGui::SetNextWindowPos(ImVec2(window.x - side_width - 8, 0.55F * window.y), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSizeConstraints(ImVec2(side_width, 0), ImVec2(side_width, window.y));
     ImGui::Begin("Occluders", nullptr, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::PushItemWidth(-110);
     add(session);

@@ -1,4 +1,4 @@
-#include "app/viewer/occluder_panel.h"
+#include "app/viewer/panels/occluder_panel.h"
 
 #include <filesystem>
 

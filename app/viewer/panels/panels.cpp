@@ -1,0 +1,22 @@
+#include "app/viewer/panels/panels.h"
+
+#include "app/viewer/panels/edit_list.h"
+#include "app/viewer/panels/key_help.h"
+#include "app/viewer/panels/menu_bar.h"
+
+namespace anvil {
+
+void Panels::show(Session& session, const FrameTimes& times) {
+    show_menu(session, files);
+    if (session.view.panels) {
+        edit_.show(session);
+        show_edit_list(session);
+        occluders_.show(session);
+    }
+    show_status(session, times);
+    show_notices(session);
+    files.show(session);
+    show_key_help(session.view.help);
+}
+
+} // namespace anvil

@@ -1,0 +1,80 @@
+#include "app/viewer/panels/status_bar.h"
+
+#include "engine/core/number_text.h"
+
+#include <imgui.h>
+
+namespace anvil {
+
+namespace {
+
+const ImVec4 error_colour(1.0F, 0.55F, 0.45F, 1);
+const ImVec4 warning_colour(1.0F, 0.85F, 0.5F, 1);
+
+} // namespace
+
+void show_status(Session& session, const FrameTimes& times) {
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    const float height = 2 * ImGui::GetTextLineHeightWithSpacing() + 8;
+    ImGui::SetNextWindowPos(ImVec2(0, window.y - height));
+    ImGui::SetNextWindowSize(ImVec2(window.x, height));
+    ImGui::Begin("status", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::TextUnformatted(session.editor.hint().c_str());
+    const Shown& shown = session.shown();
+    std::string line = "nothing is open: File, Open, or drop a file here";
+    if (shown.mesh) {
+        const SurfaceVersion& surface = *shown.document.surface;
+        const Vec3 extent = session.bounds().high - session.bounds().low;
+        line = shown.mesh_file.filename().string() + (shown.document.unsaved ? " (unsaved)" : "") + "   " +
+               std::to_string(surface.mesh->vertex_count()) + " vertices, " +
+               std::to_string(surface.mesh->polygon_count()) + " faces   " + rounded_text(extent.x) + " x " +
+               rounded_text(extent.y) + " x " + rounded_text(extent.z);
+        if (shown.drag) {
+            line += "   region " + std::to_string(shown.drag->region) + ", condition " +
+                    rounded_text(shown.drag->condition) + ", step " +
+                    rounded_text(std::round(shown.drag->milliseconds * 10) / 10) + " ms";
+        }
+    }
+    line +=
+        "   " + shown.device + "   " + rounded_text(std::round(times.milliseconds * 10) / 10) + " ms a frame";
+    ImGui::TextUnformatted(line.c_str());
+    const WorkerState work = session.work();
+    if (!work.job.empty() && work.seconds > 0.3) {
+        ImGui::SameLine(window.x - 330);
+        const std::string text = work.job + (work.stage.empty() ? "" : ": " + work.stage);
+        ImGui::ProgressBar(static_cast<float>(work.fraction), ImVec2(240, 0), text.c_str());
+        ImGui::SameLine();
+        if (ImGui::SmallButton("Cancel")) {
+            session.cancel_work();
+        }
+    }
+    ImGui::End();
+}
+
+void show_notices(Session& session) {
+    if (session.notices().empty()) {
+        return;
+    }
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos(ImVec2(8, window.y - 60), ImGuiCond_Always, ImVec2(0, 1));
+    ImGui::SetNextWindowSizeConstraints(ImVec2(300, 0), ImVec2(window.x * 0.7F, window.y * 0.5F));
+    bool open = true;
+    ImGui::Begin("Messages", &open,
+                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::PushTextWrapPos(window.x * 0.65F);
+    for (const Notice& notice : session.notices()) {
+        ImGui::PushStyleColor(ImGuiCol_Text, notice.is_error ? error_colour : warning_colour);
+        ImGui::TextUnformatted(notice.text.c_str());
+        ImGui::PopStyleColor();
+    }
+    ImGui::PopTextWrapPos();
+    ImGui::End();
+    if (!open) {
+        session.dismiss_notices();
+    }
+}
+
+} // namespace anvil
