@@ -53,9 +53,19 @@ Buffer index_buffer(DeviceState& device, std::span<const uint32_t> indices) {
 
 } // namespace
 
+DrawnIndices::DrawnIndices(DeviceState& device, const Mesh& mesh, std::span<const Vec3> places)
+    : DrawnIndices(device, std::span<const uint32_t>(anvil::triangle_indices(mesh, places))) {
+    const std::vector<uint32_t> ends = anvil::line_indices(mesh, places);
+    lines = index_buffer(device, ends);
+    line_indices = static_cast<uint32_t>(ends.size());
+}
+
+DrawnIndices::DrawnIndices(DeviceState& device, std::span<const uint32_t> corners)
+    : triangles(index_buffer(device, corners)), triangle_indices(static_cast<uint32_t>(corners.size())) {}
+
 DrawnMesh::DrawnMesh(DeviceState& device, const Mesh& mesh, std::span<const Vec3> places, const Vec3& centre,
                      bool editable)
-    : origin(centre) {
+    : origin(centre), indices(device, mesh, places) {
     for (const Vec3& p : places) {
         if (is_finite(p)) {
             box.include(p);
@@ -64,12 +74,6 @@ DrawnMesh::DrawnMesh(DeviceState& device, const Mesh& mesh, std::span<const Vec3
     positions = storage_buffer(device, std::span<const glm::vec3>(relative(places, origin)));
     const std::vector<Vec3> directions = vertex_normals(mesh, places);
     normals = storage_buffer(device, std::span<const glm::vec3>(relative(directions, Vec3(0))));
-    const std::vector<uint32_t> corners = anvil::triangle_indices(mesh, places);
-    triangles = index_buffer(device, corners);
-    triangle_indices = static_cast<uint32_t>(corners.size());
-    const std::vector<uint32_t> ends = anvil::line_indices(mesh, places);
-    lines = index_buffer(device, ends);
-    line_indices = static_cast<uint32_t>(ends.size());
     if (editable) {
         slots =
             storage_buffer(device, std::span<const uint32_t>(std::vector<uint32_t>(places.size(), no_index)),

@@ -11,6 +11,21 @@
 
 namespace anvil {
 
+/// Which triangles and edges of a mesh's vertices are drawn.
+struct DrawnIndices {
+    DrawnIndices() = default;
+    /// All of the mesh's: triangles, and the polygons' edges, each once; none with a place that is not
+    /// finite. @throws DeviceError
+    DrawnIndices(DeviceState& device, const Mesh& mesh, std::span<const Vec3> places);
+    /// Triangles alone. @throws DeviceError
+    DrawnIndices(DeviceState& device, std::span<const uint32_t> corners);
+
+    Buffer triangles;
+    Buffer lines;
+    uint32_t triangle_indices = 0;
+    uint32_t line_indices = 0;
+};
+
 /// On the device: made once, then only drawn. From any thread.
 struct DrawnMesh {
     /// `places` (world) of the mesh's vertices; drawn relative to `centre`, and what is not finite with
@@ -22,11 +37,8 @@ struct DrawnMesh {
     Box box; ///< world
     Buffer positions;
     Buffer normals;
-    Buffer triangles; ///< indices
-    Buffer lines;     ///< indices: the polygons' edges, each once
-    Buffer slots;     ///< a number per vertex, see shaders/viewer/mesh.vert; empty where not editable
-    uint32_t triangle_indices = 0;
-    uint32_t line_indices = 0;
+    DrawnIndices indices;
+    Buffer slots; ///< a number per vertex, see shaders/viewer/mesh.vert; empty where not editable
 };
 
 /// Each vertex's weight in an edit (largest |phi| of its handles) and its distance from the nearest.

@@ -25,6 +25,12 @@ void Editor::clear() {
     drag_.reset();
 }
 
+void Editor::surface_changed(const OrbitCamera& camera, const PickSurface* surface) {
+    if (hover_) {
+        hover_ = surface != nullptr ? surface->hit(camera.ray(cursor_.x, cursor_.y)) : std::nullopt;
+    }
+}
+
 void Editor::settings_changed() {
     if (has_handles()) {
         wish_ = EditorWish::preview;
@@ -41,6 +47,7 @@ Edit Editor::edit() const {
     edit.shape = shape;
     edit.metric = metric;
     edit.refine = refine;
+    edit.mirror = mirror;
     for (const PickedHandle& picked : handles_.all) {
         Handle& handle = edit.handles.emplace_back();
         handle.at = picked.place.at;
@@ -49,15 +56,24 @@ Edit Editor::edit() const {
         } else {
             handle.by = picked.by;
         }
-        if (!picked.anchors.empty()) {
+        if (picked.has_anchors()) {
             Anchors& anchors = edit.anchors.emplace_back();
             anchors.handle = static_cast<uint32_t>(edit.handles.size() - 1);
             for (const PickedPlace& place : picked.anchors) {
                 anchors.at.emplace_back(place.at);
             }
+            for (const PickedLine& line : picked.anchor_lines) {
+                anchors.at.emplace_back(PolylineAddress{line.addresses()});
+            }
+            for (const PickedFace& face : picked.anchor_faces) {
+                anchors.at.emplace_back(face.at);
+            }
         }
     }
     for (const PickedPlace& pin : pins_) {
+        edit.pinned.push_back(pin.at);
+    }
+    for (const PickedPlace& pin : lasting_pins_) {
         edit.pinned.push_back(pin.at);
     }
     return edit;
@@ -77,6 +93,37 @@ std::optional<size_t> Editor::handle_at(const OrbitCamera& camera, double x, dou
     return best;
 }
 
+void Editor::set_lasting_pins(std::vector<PickedPlace> pins) {
+    lasting_pins_ = std::move(pins);
+    settings_changed();
+}
+
+void Editor::add_line(const PickedLine& line, bool further) {
+    if (further || !has_handles()) {
+        handles_.all.push_back({line.points[line.points.size() / 2], Vec3(0), 0, {}, {}, {}});
+        handles_.active = handles_.all.size() - 1;
+    }
+    handles_.all[handles_.active].anchor_lines.push_back(line);
+    settings_changed();
+}
+
+void Editor::set_path(const std::vector<SurfaceAddress>& points, const std::vector<Vec3>& path) {
+    for (PickedHandle& handle : handles_.all) {
+        for (PickedLine& line : handle.anchor_lines) {
+            if (line.addresses() == points) {
+                line.path = path;
+            }
+        }
+    }
+}
+
+void Editor::add_anchors(const std::vector<PickedFace>& faces, const std::vector<PickedPlace>& places) {
+    PickedHandle& handle = handles_.all[handles_.active];
+    handle.anchor_faces.insert(handle.anchor_faces.end(), faces.begin(), faces.end());
+    handle.anchors.insert(handle.anchors.end(), places.begin(), places.end());
+    settings_changed();
+}
+
 void Editor::pick(const SurfaceHit& hit, bool further) {
     const PickedPlace place = place_of(hit);
     if (tool == Tool::pin) {
@@ -87,7 +134,7 @@ void Editor::pick(const SurfaceHit& hit, bool further) {
         if (!further) {
             clear();
         }
-        handles_.all.push_back({place, Vec3(0), 0, {}});
+        handles_.all.push_back({place, Vec3(0), 0, {}, {}, {}});
         handles_.active = handles_.all.size() - 1;
         handles_.turns = tool == Tool::turn;
     }
@@ -143,7 +190,8 @@ bool Editor::press(const InputEvent& event, const OrbitCamera& camera, const Pic
         }
         return true;
     }
-    if (event.button != MouseButton::left || event.modifiers.alt) {
+    if (event.button != MouseButton::left || event.modifiers.alt || tool == Tool::line ||
+        tool == Tool::select) {
         return false;
     }
     const auto grabbed = handle_at(camera, cursor_.x, cursor_.y);
@@ -167,6 +215,10 @@ bool Editor::press(const InputEvent& event, const OrbitCamera& camera, const Pic
 void Editor::begin(bool modal, bool picked_new, const OrbitCamera& camera) {
     handles_.turns = tool == Tool::turn;
     drag_.emplace(handles_, camera, cursor_, modal, picked_new);
+    if (mirror && handles_.turns) { // the one axis that both sides can turn about wherever they are
+        handles_.axis.direction = Vec3(0);
+        handles_.axis.direction[mirror->axis] = 1;
+    }
     settings_changed();
 }
 
@@ -214,7 +266,7 @@ void Editor::finish() {
     // One handle that was picked and dragged in one go is a whole edit; several, or one that was set up with
     // anchors first, are taken by Enter.
     const bool whole =
-        drag_->picked_new() && handles_.all.size() == 1 && handles_.all[0].anchors.empty() && pins_.empty();
+        drag_->picked_new() && handles_.all.size() == 1 && !handles_.all[0].has_anchors() && pins_.empty();
     const bool moved = drag_->moved();
     if (!moved) {
         handles_.all = drag_->before();

@@ -11,7 +11,8 @@
 namespace anvil {
 
 /// What a click on the surface does.
-enum class Tool : uint8_t { move, turn, anchor, pin };
+/// Lines and the selection are made by tools of their own.
+enum class Tool : uint8_t { move, turn, anchor, pin, line, select };
 
 /// What the editor wants done with its edit.
 enum class EditorWish : uint8_t { nothing, preview, commit, drop };
@@ -23,6 +24,7 @@ class Editor {
     ShapeChoice shape;
     Metric metric = Metric::geodesic;
     std::optional<Refine> refine;
+    std::optional<Mirror> mirror;
 
     /// Whether the event was the editor's; `surface` may be nullptr. Afterwards ask for wish().
     bool handle(const InputEvent& event, const OrbitCamera& camera, const PickSurface* surface);
@@ -34,12 +36,24 @@ class Editor {
     bool has_handles() const { return !handles_.all.empty(); }
     /// Forgets handles, anchors and pins.
     void clear();
+    /// Looks again at what is under the cursor; `surface` may be nullptr.
+    void surface_changed(const OrbitCamera& camera, const PickSurface* surface);
     /// After a change of radius, shape, metric or refinement by a panel.
     void settings_changed();
 
     bool dragging() const { return drag_.has_value(); }
     const std::vector<PickedHandle>& handles() const { return handles_.all; }
     const std::vector<PickedPlace>& pins() const { return pins_; }
+    /// Pins of this and all further edits, until others are given.
+    const std::vector<PickedPlace>& lasting_pins() const { return lasting_pins_; }
+    void set_lasting_pins(std::vector<PickedPlace> pins);
+    /// As an anchor of the active handle; without handles, or as a `further` one, as a handle that is the
+    /// whole line, held at its middle point. @pre two points
+    void add_line(const PickedLine& line, bool further);
+    /// What joins the points of lines with these points.
+    void set_path(const std::vector<SurfaceAddress>& points, const std::vector<Vec3>& path);
+    /// What the active handle's distances are measured from, beside what it has. @pre has_handles()
+    void add_anchors(const std::vector<PickedFace>& faces, const std::vector<PickedPlace>& places);
     size_t active() const { return handles_.active; }
     const std::optional<SurfaceHit>& hover() const { return hover_; }
     /// Where a handle is wanted.
@@ -64,6 +78,7 @@ class Editor {
 
     PickedHandles handles_;
     std::vector<PickedPlace> pins_;
+    std::vector<PickedPlace> lasting_pins_;
     std::optional<SurfaceHit> hover_;
     std::optional<HandleDrag> drag_;
     EditorWish wish_ = EditorWish::nothing;

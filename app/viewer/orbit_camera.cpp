@@ -37,6 +37,10 @@ void OrbitCamera::set_up(UpAxis up) {
     up_ = up;
 }
 
+Vec3 OrbitCamera::side(const Vec3& direction) const {
+    return up_ == UpAxis::y ? direction : Vec3(direction.x, -direction.z, direction.y);
+}
+
 double OrbitCamera::half_height() const {
     const double shorter = std::tan(field_of_view / 2);
     return width_ >= height_ ? shorter : shorter * height_ / width_;

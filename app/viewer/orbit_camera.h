@@ -34,6 +34,9 @@ class OrbitCamera {
 
     void set_window(double width, double height);
     void set_up(UpAxis up); ///< turns the eye along: what was front stays front
+    UpAxis upright() const { return up_; }
+    /// What `direction` of a scene whose y points up is in one with this camera's up: front, right, top.
+    Vec3 side(const Vec3& direction) const;
 
     /// Looks along -direction (any length > 0) from where the window shows all points; `centre` is then what
     /// the camera turns about. No points: keeps the distance.

@@ -2,8 +2,37 @@
 
 namespace anvil {
 
+namespace {
+
+std::vector<Triangle> chosen(const Mesh& mesh, const std::vector<uint32_t>& numbers) {
+    std::vector<Triangle> triangles;
+    triangles.reserve(numbers.size());
+    for (const uint32_t t : numbers) {
+        triangles.push_back(mesh.triangles[t]);
+    }
+    return triangles;
+}
+
+} // namespace
+
 PickSurface::PickSurface(const Mesh& mesh, const RefinementHistory& history, std::span<const Vec3> positions)
     : mesh_(mesh), history_(history), positions_(positions), tree_(positions, mesh.triangles) {}
+
+PickSurface::PickSurface(const Mesh& mesh, const RefinementHistory& history, std::span<const Vec3> positions,
+                         std::vector<uint32_t> triangles)
+    : mesh_(mesh), history_(history), positions_(positions), numbers_(std::move(triangles)),
+      tree_(positions, chosen(mesh, numbers_)) {}
+
+ClosestPoint PickSurface::of_mesh(ClosestPoint found) const {
+    if (found.found() && !numbers_.empty()) {
+        found.triangle = numbers_[found.triangle];
+    }
+    return found;
+}
+
+ClosestPoint PickSurface::first_hit(const Ray& ray) const {
+    return of_mesh(tree_.first_hit(ray.origin, ray.direction));
+}
 
 SurfaceHit PickSurface::at(const SurfacePoint& point) const {
     const Triangle& t = mesh_.triangles[point.triangle];
@@ -14,7 +43,7 @@ SurfaceHit PickSurface::at(const SurfacePoint& point) const {
 }
 
 std::optional<SurfaceHit> PickSurface::hit(const Ray& ray) const {
-    const ClosestPoint found = tree_.first_hit(ray.origin, ray.direction);
+    const ClosestPoint found = first_hit(ray);
     if (!found.found()) {
         return std::nullopt;
     }

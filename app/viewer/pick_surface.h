@@ -26,7 +26,13 @@ class PickSurface {
     /// O(t log t).
     PickSurface(const Mesh& mesh, const RefinementHistory& history, std::span<const Vec3> positions);
 
+    /// The same without some faces: with these triangles of the mesh alone.
+    PickSurface(const Mesh& mesh, const RefinementHistory& history, std::span<const Vec3> positions,
+                std::vector<uint32_t> triangles);
+
     std::optional<SurfaceHit> hit(const Ray& ray) const;
+    /// Its triangle is one of the mesh's; the distance is in lengths of the ray's direction.
+    ClosestPoint first_hit(const Ray& ray) const;
     SurfaceHit at(const SurfacePoint& point) const;
     /// Where an address is now; nothing if it is none of this mesh's.
     std::optional<Vec3> position(const SurfaceAddress& address) const;
@@ -35,9 +41,12 @@ class PickSurface {
     const Mesh& mesh() const { return mesh_; }
 
   private:
+    ClosestPoint of_mesh(ClosestPoint found) const;
+
     const Mesh& mesh_;
     const RefinementHistory& history_;
     std::span<const Vec3> positions_;
+    std::vector<uint32_t> numbers_; ///< of the tree's triangles in the mesh; empty: all, in order
     SearchTree tree_;
 };
 

@@ -8,6 +8,25 @@ PickedPlace place_of(const SurfaceHit& hit) {
     return {hit.address, hit.position, hit.normal};
 }
 
+std::vector<SurfaceAddress> PickedLine::addresses() const {
+    std::vector<SurfaceAddress> result;
+    for (const PickedPlace& point : points) {
+        result.push_back(point.at);
+    }
+    return result;
+}
+
+std::vector<Vec3> PickedLine::places() const {
+    if (!path.empty()) {
+        return path;
+    }
+    std::vector<Vec3> result;
+    for (const PickedPlace& point : points) {
+        result.push_back(point.position);
+    }
+    return result;
+}
+
 Vec3 PickedHandles::target(const PickedHandle& handle) const {
     if (!turns) {
         return handle.place.position + handle.by;
@@ -22,6 +41,16 @@ Vec3 PickedHandles::centre() const {
     for (const PickedHandle& handle : all) {
         for (const PickedPlace& anchor : handle.anchors) {
             sum += anchor.position;
+            ++count;
+        }
+        for (const PickedLine& line : handle.anchor_lines) {
+            for (const PickedPlace& point : line.points) {
+                sum += point.position;
+                ++count;
+            }
+        }
+        for (const PickedFace& face : handle.anchor_faces) {
+            sum += face.position;
             ++count;
         }
     }

@@ -17,11 +17,31 @@ struct PickedPlace {
 
 PickedPlace place_of(const SurfaceHit& hit);
 
+/// A face of the file with where it was when it was picked.
+struct PickedFace {
+    WholeFaceAddress at;
+    Vec3 position{0};
+};
+
+/// A line along the surface through places, and what joins them once that is known.
+struct PickedLine {
+    std::vector<PickedPlace> points;
+    std::vector<Vec3> path; ///< empty: not known
+
+    std::vector<SurfaceAddress> addresses() const;
+    /// The path, else the points.
+    std::vector<Vec3> places() const;
+};
+
 struct PickedHandle {
     PickedPlace place;
     Vec3 by{0};
     double degrees = 0;
     std::vector<PickedPlace> anchors;
+    std::vector<PickedFace> anchor_faces;
+    std::vector<PickedLine> anchor_lines;
+
+    bool has_anchors() const { return !anchors.empty() || !anchor_faces.empty() || !anchor_lines.empty(); }
 };
 
 /// The handles of one edit and how they move.

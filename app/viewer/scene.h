@@ -3,17 +3,28 @@
 
 #include "app/viewer/drawn_mesh.h"
 
+#include <array>
 #include <glm/glm.hpp>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace anvil {
 
+/// What surfaces are lit by. All but the studio show form alone, or how smooth it is.
+enum class Lights : uint8_t { studio, clay, metal, stripes };
+
+/// By their names in scripts and menus.
+std::array<std::pair<const char*, Lights>, 4> light_names();
+
 struct SceneItem {
     std::shared_ptr<DrawnMesh> mesh;
-    std::shared_ptr<const DrawnRegion> region; ///< of an editable mesh; nullptr: none moves
-    glm::mat4 model_view{1};                   ///< from the mesh's local space
-    glm::vec4 colour{0.66F, 0.51F, 0.40F, 1};  ///< linear; alpha < 1: translucent
+    std::shared_ptr<const DrawnRegion> region;   ///< of an editable mesh; nullptr: none moves
+    std::shared_ptr<const DrawnIndices> indices; ///< in place of the mesh's; nullptr: its own
+    std::shared_ptr<const Buffer> selected;      ///< a number per vertex, 1: selected; nullptr: none is
+    glm::mat4 model_view{1};                     ///< from the mesh's local space
+    glm::vec4 colour{0.66F, 0.51F, 0.40F, 1};    ///< linear; alpha < 1: translucent
+    Lights lights = Lights::studio;
     bool flat = false;
     bool edges = false;        ///< the polygons' edges over it
     bool tinted = true;        ///< the region in colours

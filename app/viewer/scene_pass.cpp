@@ -11,7 +11,7 @@ namespace anvil {
 
 namespace {
 
-constexpr uint32_t binding_count = 7;
+constexpr uint32_t binding_count = 8;
 constexpr vk::ShaderStageFlags both = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 const glm::vec4 edge_colour(0.02F, 0.02F, 0.025F, 0.35F);
 
@@ -38,7 +38,8 @@ shader::MeshParameters parameters_of(const SceneItem& item, const Scene& scene, 
     parameters.flags = (item.region ? MESH_HAS_REGION : 0U) | (item.flat ? MESH_FLAT : 0U) |
                        (lines ? MESH_LINES : 0U) | (item.tinted ? MESH_TINTED : 0U) |
                        (item.contour_spacing > 0 ? MESH_CONTOURS : 0U) |
-                       (item.plain_back ? MESH_PLAIN_BACK : 0U);
+                       (item.plain_back ? MESH_PLAIN_BACK : 0U) | (item.selected ? MESH_SELECTION : 0U) |
+                       static_cast<uint32_t>(item.lights) * MESH_LIGHTS;
     parameters.point_count = item.region ? item.region->surface.point_count : 0;
     parameters.contour_spacing = item.contour_spacing;
     parameters.orthographic = scene.orthographic ? 1.0F : 0.0F;
@@ -128,7 +129,8 @@ void ScenePass::bind(const vk::raii::CommandBuffer& commands, const SceneItem& i
         whole(region != nullptr ? item.mesh->slots.handle() : none),
         whole(region != nullptr ? region->surface.ends : none),
         whole(region != nullptr ? region->surface.normals : none),
-        whole(region != nullptr ? region->marks->handle() : none)};
+        whole(region != nullptr ? region->marks->handle() : none),
+        whole(item.selected ? item.selected->handle() : none)};
     std::array<vk::WriteDescriptorSet, binding_count> writes;
     for (uint32_t i = 0; i < binding_count; ++i) {
         writes[i] = vk::WriteDescriptorSet{.dstBinding = i,
@@ -141,14 +143,15 @@ void ScenePass::bind(const vk::raii::CommandBuffer& commands, const SceneItem& i
 
 void ScenePass::draw(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& pipeline,
                      const SceneItem& item, const Scene& scene, bool lines) const {
-    const uint32_t count = lines ? item.mesh->line_indices : item.mesh->triangle_indices;
+    const DrawnIndices& indices = item.indices ? *item.indices : item.mesh->indices;
+    const uint32_t count = lines ? indices.line_indices : indices.triangle_indices;
     if (count == 0) {
         return;
     }
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
     bind(commands, item);
     commands.pushConstants<shader::MeshParameters>(*layout_, both, 0, parameters_of(item, scene, lines));
-    commands.bindIndexBuffer(lines ? item.mesh->lines.handle() : item.mesh->triangles.handle(), 0,
+    commands.bindIndexBuffer(lines ? indices.lines.handle() : indices.triangles.handle(), 0,
                              vk::IndexType::eUint32);
     commands.drawIndexed(count, 1, 0, 0, 0);
 }

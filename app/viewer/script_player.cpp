@@ -1,6 +1,7 @@
 #include "app/viewer/script_player.h"
 
 #include "app/viewer/panels/occluder_panel.h"
+#include "app/viewer/script_view.h"
 #include "engine/core/error.h"
 #include "engine/core/number_text.h"
 #include "engine/gpu/picture.h"
@@ -139,7 +140,9 @@ void ScriptPlayer::act(const ScriptLine& line, Session& session, Window& window)
     } else if (line.word == "save") {
         session.save(with[0]);
     } else if (line.word == "view") {
-        session.look_from(parse_view(with[0]).direction);
+        const Vec3 direction = parse_view(with[0]).direction;
+        const bool named = with[0].find(',') == std::string::npos;
+        session.look_from(named ? session.camera.side(direction) : direction);
     } else if (line.word == "frame") {
         session.frame_all();
     } else if (line.word == "device") {
@@ -172,6 +175,8 @@ void ScriptPlayer::act(const ScriptLine& line, Session& session, Window& window)
         change_occluder(line, session);
     } else if (line.word == "expect") {
         expect(line, session);
+    } else if (play_view_word(line, session)) {
+        return;
     } else if (line.word == "say") {
         std::cout << with[0] << std::endl; // read by whoever waits for it: not kept in a buffer
     }
@@ -221,6 +226,8 @@ void ScriptPlayer::expect(const ScriptLine& line, Session& session) const {
         found = std::to_string(session.editor.handles().size());
     } else if (with[0] == "notices") {
         found = std::to_string(session.notices().size());
+    } else if (const auto value = view_value(with[0], session)) {
+        found = *value;
     } else if (shown.mesh) {
         const Recipe& recipe = *shown.document.recipe;
         found = with[0] == "edits"       ? std::to_string(recipe.edits.size())

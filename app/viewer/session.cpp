@@ -4,7 +4,6 @@
 #include "app/viewer/window.h"
 #include "engine/core/error.h"
 #include "engine/core/user_folder.h"
-#include "engine/occluder/shape_nodes.h"
 
 #include <algorithm>
 
@@ -14,7 +13,6 @@ namespace {
 
 constexpr double default_radius = 0.15; // of the diagonal
 constexpr size_t most_notices = 6;
-const glm::vec4 occluder_colour(0.17F, 0.34F, 0.52F, 0.42F);
 
 std::string text_of(const std::exception_ptr& error) {
     try {
@@ -26,19 +24,12 @@ std::string text_of(const std::exception_ptr& error) {
     }
 }
 
-glm::mat4 model_view(const OrbitCamera& camera, const Transform& transform) {
-    const Placement place = placement(transform);
-    const glm::dmat3 axes(place.axes[0] * place.scale, place.axes[1] * place.scale,
-                          place.axes[2] * place.scale);
-    return camera.view(place.origin) * glm::mat4(glm::mat3(axes));
-}
-
 } // namespace
 
 Session::Session(std::shared_ptr<Device> device, const std::string& choice, std::function<void()> changed)
     : device_(std::move(device)), bench_(std::make_unique<Workbench>(device_, choice)),
-      shown_(bench_->shown()), device_choices_{"cpu"}, recent_files_(user_state_folder()),
-      recent_(recent_files_.list()) {
+      mirror_plane_(device_->state()), shown_(bench_->shown()), device_choices_{"cpu"},
+      recent_files_(user_state_folder()), recent_(recent_files_.list()) {
     Log log;
     for (LostSession& lost : lost_sessions(user_state_folder(), log)) {
         lost_.push_back(std::make_shared<LostSession>(std::move(lost)));
@@ -154,10 +145,17 @@ void Session::update() {
         break;
     }
     take_up();
+    trace_line();
 }
 
 void Session::take_up() {
+    const std::shared_ptr<const PickSurface> picked_on = shown_->pick;
     shown_ = bench_->shown();
+    if (shown_->pick != picked_on) {
+        editor.surface_changed(camera, shown_->pick.get());
+        line.surface_changed(shown_->pick.get());
+        asked_for_.clear();
+    }
     for (std::string& warning : bench_->take_warnings()) {
         notices_.push_back({false, std::move(warning)});
     }
@@ -173,14 +171,15 @@ void Session::take_up() {
         opened_ = shown_->mesh_file;
         recent_files_.add(shown_->recipe_file.empty() ? shown_->mesh_file : shown_->recipe_file);
         recent_ = recent_files_.list();
+        editor.set_lasting_pins({});
         editor.radius = default_radius * bounds().diagonal();
-        camera.frame(shown_->document.surface->positions, Vec3(0.35, 0.25, 1.0));
+        camera.frame(shown_->document.surface->positions, camera.side(Vec3(0.35, 0.25, 1.0)));
     }
 }
 
 bool Session::settled() const {
     const std::lock_guard lock(mutex_);
-    return worker_->idle() && shown_ == bench_->shown() && said_.empty();
+    return worker_->idle() && shown_ == bench_->shown() && said_.empty() && !in_motion();
 }
 
 Box Session::bounds() const {
@@ -215,12 +214,16 @@ void Session::handle(const InputEvent& event) {
     if (camera_first) {
         return;
     }
+    if (!editor.dragging() && (handle_line(event) || handle_selection(event))) {
+        return;
+    }
     const PickSurface* surface = shown_->pick.get();
     if (editor.handle(event, camera, surface)) {
         return;
     }
     if (event.kind == InputEvent::Kind::scroll) {
         navigation.handle(event, camera, std::nullopt);
+        zoomed_at_ = std::chrono::steady_clock::now();
     } else if (event.kind == InputEvent::Kind::key_down) {
         key(event);
     }
@@ -240,12 +243,14 @@ void Session::key(const InputEvent& event) {
         {{"1", Vec3(0, 0, 1)}, {"3", Vec3(1, 0, 0)}, {"7", Vec3(0, 1, 0)}}};
     for (const auto& [name, direction] : views) {
         if (number == key_of(name)) {
-            look_from(event.modifiers.shift ? -direction : direction);
+            look_from(camera.side(event.modifiers.shift ? -direction : direction));
         }
     }
     if (number == '5') {
         camera.orthographic = !camera.orthographic;
-    } else if (number == 'F' || number == key_of("home")) {
+    } else if (number == 'F') {
+        frame_selection();
+    } else if (number == key_of("home")) {
         frame_all();
     } else if (number == 'W') {
         view.edges = !view.edges;
@@ -263,56 +268,6 @@ void Session::key(const InputEvent& event) {
     } else if (number == key_of("tab")) {
         view.panels = !view.panels;
     }
-}
-
-Scene Session::scene() const {
-    Scene scene;
-    if (!shown_->mesh) {
-        return scene;
-    }
-    SceneItem surface;
-    surface.mesh = shown_->mesh;
-    surface.region = shown_->region;
-    surface.model_view = camera.view(shown_->mesh->origin);
-    surface.flat = view.flat;
-    surface.edges = view.edges;
-    surface.tinted = view.tint;
-    surface.contour_spacing = view.contours ? static_cast<float>(editor.radius / 10) : 0.0F;
-    scene.items.push_back(surface);
-    Box all = bounds();
-    if (shown_->drag) { // what is dragged may leave the box
-        for (const Vec3& end : shown_->drag->ends) {
-            all.include(end - Vec3(editor.radius));
-            all.include(end + Vec3(editor.radius));
-        }
-    }
-    if (view.occluders) {
-        std::vector<std::pair<double, SceneItem>> translucent;
-        for (const OccluderView& occluder : shown_->occluders) {
-            SceneItem item;
-            item.mesh = occluder.mesh;
-            item.model_view = model_view(camera, occluder.transform);
-            item.colour = occluder_colour;
-            item.tinted = false;
-            const Placement place = placement(occluder.transform);
-            if (item.mesh->box.empty()) {
-                continue;
-            }
-            const double reach =
-                place.scale * (glm::length(item.mesh->box.centre()) + item.mesh->box.diagonal());
-            all.include(place.origin - Vec3(reach));
-            all.include(place.origin + Vec3(reach));
-            translucent.emplace_back(camera.project(place.origin).depth, item);
-        }
-        std::stable_sort(translucent.begin(), translucent.end(),
-                         [](const auto& a, const auto& b) { return a.first > b.first; });
-        for (auto& [depth, item] : translucent) {
-            scene.items.push_back(std::move(item));
-        }
-    }
-    scene.projection = camera.projection(all);
-    scene.orthographic = camera.orthographic;
-    return scene;
 }
 
 } // namespace anvil

@@ -2,12 +2,16 @@
 #pragma once
 
 #include "app/viewer/editor.h"
+#include "app/viewer/line_tool.h"
+#include "app/viewer/mirror_plane.h"
 #include "app/viewer/navigation.h"
 #include "app/viewer/scene.h"
+#include "app/viewer/select_tool.h"
 #include "app/viewer/workbench.h"
 #include "app/viewer/worker.h"
 #include "engine/document/recent_files.h"
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -19,6 +23,8 @@ namespace anvil {
 
 /// How things are drawn.
 struct ViewSettings {
+    Lights lights = Lights::studio;
+    bool less_in_motion = false; ///< fewer triangles while the camera moves
     bool flat = false;
     bool edges = false;
     bool tint = true;
@@ -44,6 +50,8 @@ class Session {
     OrbitCamera camera;
     Navigation navigation;
     ViewSettings view;
+    SelectTool select;
+    LineTool line;
 
     /// What no panel took.
     void handle(const InputEvent& event);
@@ -66,7 +74,15 @@ class Session {
     /// Another recipe, as one step; `merge` as Document::change().
     void change(const Recipe& next, const std::string& what, const std::string& merge = {});
     void frame_all();
+    /// What is selected, else the region of the edit, else all.
+    void frame_selection();
+    // Of what is selected.
+    void change_selection(const SelectionChange& change);
+    void change_selection(SelectionChange::Kind kind);
+    void pin_selection();    ///< for this and all further edits
+    void anchor_selection(); ///< of the active handle
     void look_from(const Vec3& direction);
+    void set_up(UpAxis up) { camera.set_up(up); }
 
     const Shown& shown() const { return *shown_; }
     Scene scene() const;
@@ -84,13 +100,22 @@ class Session {
 
   private:
     void key(const InputEvent& event);
+    bool handle_selection(const InputEvent& event);
+    bool handle_line(const InputEvent& event);
+    void trace_line();
+    bool command_of_selection(const InputEvent& event);
+    bool in_motion() const;
+    void complain(const std::string& text) { notices_.push_back({true, text}); }
+    SceneItem surface_item() const;
     void take_up();
     void failed(const std::exception_ptr& error);
     void ask(const std::string& what, Worker::Job job, const std::string& replaces = "");
 
     std::shared_ptr<Device> device_;
     std::unique_ptr<Workbench> bench_;
+    MirrorPlane mirror_plane_;
     std::shared_ptr<const Shown> shown_;
+    std::chrono::steady_clock::time_point zoomed_at_;
     std::filesystem::path opened_; ///< what the camera was last set for
     std::vector<Notice> notices_;
     std::vector<std::string> device_choices_;
@@ -99,7 +124,9 @@ class Session {
     std::vector<std::shared_ptr<LostSession>> lost_; ///< the youngest first
     mutable std::mutex mutex_;                       ///< of what the worker says
     std::vector<Notice> said_;
-    std::unique_ptr<Worker> worker_; ///< last: it uses all else
+    std::optional<PickedLine> traced_;      ///< with its path
+    std::vector<SurfaceAddress> asked_for_; ///< the line that was traced last
+    std::unique_ptr<Worker> worker_;        ///< last: it uses all else
 };
 
 } // namespace anvil

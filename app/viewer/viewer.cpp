@@ -44,6 +44,7 @@ class Viewer {
         : options_(options), window_(first_size, "Anvil"), device_(open_device()),
           ui_(window_, window_.scale()), painter_(*device_, window_),
           session_(device_, options.device, [] { Window::wake(); }) {
+        session_.view.less_in_motion = painter_.draws_on_cpu();
         if (!options.script.empty()) {
             player_.emplace(options.script);
         }

@@ -190,7 +190,7 @@ void Window::set_clipboard(const std::string& text) {
 }
 
 int key_of(const std::string& name) {
-    static const std::array<std::pair<const char*, int>, 20> named{
+    static const std::array<std::pair<const char*, int>, 21> named{
         {{"escape", GLFW_KEY_ESCAPE},    {"enter", GLFW_KEY_ENTER},
          {"tab", GLFW_KEY_TAB},          {"backspace", GLFW_KEY_BACKSPACE},
          {"delete", GLFW_KEY_DELETE},    {"left", GLFW_KEY_LEFT},
@@ -200,7 +200,8 @@ int key_of(const std::string& name) {
          {"shift", GLFW_KEY_LEFT_SHIFT}, {"ctrl", GLFW_KEY_LEFT_CONTROL},
          {"alt", GLFW_KEY_LEFT_ALT},     {"minus", GLFW_KEY_MINUS},
          {"period", GLFW_KEY_PERIOD},    {"comma", GLFW_KEY_COMMA},
-         {"plus", GLFW_KEY_KP_ADD},      {"slash", GLFW_KEY_SLASH}}};
+         {"plus", GLFW_KEY_KP_ADD},      {"slash", GLFW_KEY_SLASH},
+         {"equal", GLFW_KEY_EQUAL}}};
     if (name.size() == 1 && std::isalnum(static_cast<unsigned char>(name[0])) != 0) {
         return std::toupper(static_cast<unsigned char>(name[0]));
     }

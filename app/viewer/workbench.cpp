@@ -19,20 +19,6 @@ namespace {
 constexpr int occluder_cells = 64;
 constexpr double worst_condition = 1e6; ///< beyond, the last digit of a mouse's place shows
 
-/// Keeps the surface that it picks on.
-struct KeptPick {
-    std::shared_ptr<const SurfaceVersion> surface;
-    PickSurface pick;
-
-    explicit KeptPick(std::shared_ptr<const SurfaceVersion> version)
-        : surface(std::move(version)), pick(*surface->mesh, *surface->history, surface->positions) {}
-};
-
-std::shared_ptr<const PickSurface> pick_of(const std::shared_ptr<const SurfaceVersion>& surface) {
-    const auto kept = std::make_shared<const KeptPick>(surface);
-    return {kept, &kept->pick};
-}
-
 std::vector<RegionMark> marks_of(const EditRegion& region) {
     const size_t n = region.vertices.size();
     std::vector<RegionMark> marks(n, {0, static_cast<float>(infinity)});
@@ -85,7 +71,7 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 Workbench::Workbench(std::shared_ptr<Device> device, const std::string& choice)
     : device_(std::move(device)), fields_(user_cache()), autosave_(user_state_folder()),
-      shown_(std::make_shared<const Shown>()) {
+      looks_(device_->state()), shown_(std::make_shared<const Shown>()) {
     Progress progress;
     use_device(choice, progress);
 }
@@ -191,7 +177,11 @@ void Workbench::show_document(Progress& progress) {
     next.mesh = same_surface ? before->mesh
                              : std::make_shared<DrawnMesh>(device_->state(), *surface->mesh,
                                                            surface->positions, surface->frame.origin, true);
-    next.pick = same_surface ? before->pick : pick_of(surface);
+    if (!same_surface) {
+        looks_.follow(surface);
+    }
+    next.look = looks_.look();
+    next.pick = next.look->pick;
     next.recipe_file = document().recipe_file();
     next.mesh_file = document().mesh_file();
     next.device = backend_->device_name();
@@ -206,6 +196,43 @@ void Workbench::show_document(Progress& progress) {
     }
     publish(next);
     scene().warm();
+    show_look();
+}
+
+/// What is looked at in motion comes last: nothing waits for it.
+void Workbench::show_look() {
+    const auto show = [&] {
+        Shown next = *shown();
+        next.look = looks_.look();
+        next.pick = next.look->pick;
+        publish(next);
+    };
+    if (shown()->look != looks_.look()) {
+        show();
+    }
+    looks_.add_coarse();
+    if (shown()->look != looks_.look()) {
+        show();
+    }
+}
+
+std::vector<Vec3> Workbench::trace(const std::vector<SurfaceAddress>& points) {
+    SurfaceState& surface = scene().surface();
+    std::vector<SurfacePoint> places;
+    places.reserve(points.size());
+    for (const SurfaceAddress& point : points) {
+        places.push_back(surface.resolve(point, "the line"));
+    }
+    std::vector<Vec3> path;
+    for (const SurfacePoint& place : surface.line_through(places, 0, "the line")) {
+        path.push_back(surface.position_of(place));
+    }
+    return path;
+}
+
+void Workbench::select(const SelectionChange& change) {
+    looks_.change(change);
+    show_look();
 }
 
 DragScene& Workbench::scene() {

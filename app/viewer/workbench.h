@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/viewer/drawn_mesh.h"
-#include "app/viewer/pick_surface.h"
+#include "app/viewer/surface_look.h"
 #include "engine/document/autosave.h"
 #include "engine/document/document.h"
 #include "engine/forge/drag_session.h"
@@ -38,8 +38,9 @@ struct OccluderView {
 
 /// One state of the workbench; never changed once it is shown.
 struct Shown {
-    std::shared_ptr<DrawnMesh> mesh; ///< nullptr: nothing is open
-    std::shared_ptr<const PickSurface> pick;
+    std::shared_ptr<DrawnMesh> mesh;         ///< nullptr: nothing is open
+    std::shared_ptr<const PickSurface> pick; ///< what of it is not hidden
+    std::shared_ptr<const SurfaceLook> look = std::make_shared<SurfaceLook>();
     std::shared_ptr<const DrawnRegion> region;
     DocumentState document;
     std::filesystem::path recipe_file; ///< empty: not saved yet
@@ -72,6 +73,9 @@ class Workbench {
     void commit(const Edit& edit, const std::string& what, Progress& progress);
     /// Takes another recipe: occluders, past edits.
     void change(const Recipe& next, const std::string& what, const std::string& merge, Progress& progress);
+    void select(const SelectionChange& change);
+    /// The way along the surface through these points. @throws InputError where there is none
+    std::vector<Vec3> trace(const std::vector<SurfaceAddress>& points);
     void undo(Progress& progress);
     void redo(Progress& progress);
 
@@ -86,6 +90,7 @@ class Workbench {
     DocumentOptions document_options() const;
     void make_occluders(Progress& progress);
     void show_document(Progress& progress);
+    void show_look();
     void refuse_ill_conditioned(const Edit& before);
     void show_drag(double milliseconds);
     std::shared_ptr<const DrawnRegion> drawn_region();
@@ -98,6 +103,7 @@ class Workbench {
     Autosave autosave_;
     std::unique_ptr<Document> document_;
     std::shared_ptr<const SurfaceVersion> surface_; ///< that `scene_` is of
+    SurfaceLooks looks_;
     std::unique_ptr<DragScene> scene_;
     std::shared_ptr<const Recipe> recipe_; ///< that `occluders_` are of
     std::optional<EditOccluders> occluders_;

@@ -59,10 +59,30 @@ SurfacePoint SurfaceState::near(const Vec3& point, const std::string& place) {
     return snapped(result);
 }
 
+/// As vertex_point(), which looks through the mesh each time.
+SurfacePoint SurfaceState::at_vertex(uint32_t vertex) {
+    if (first_triangles_.empty()) {
+        first_triangles_.assign(positions_.size(), no_index);
+        for (size_t t = mesh_.triangles.size(); t-- > 0;) {
+            for (const uint32_t v : mesh_.triangles[t]) {
+                first_triangles_[v] = static_cast<uint32_t>(t);
+            }
+        }
+    }
+    SurfacePoint point{first_triangles_[vertex], Vec3(0), vertex};
+    for (int i = 0; point.triangle != no_index && i < 3; ++i) {
+        if (mesh_.triangles[point.triangle][i] == vertex) {
+            point.barycentric[i] = 1;
+            break;
+        }
+    }
+    return point;
+}
+
 SurfacePoint SurfaceState::resolve(const SurfaceAddress& address, const std::string& place) {
     if (const auto* vertex = std::get_if<VertexAddress>(&address)) {
         check_vertex(vertex->vertex, place);
-        return vertex_point(mesh_, vertex->vertex);
+        return at_vertex(vertex->vertex);
     }
     if (const auto* face = std::get_if<FaceAddress>(&address)) {
         return at_face(*face, place);

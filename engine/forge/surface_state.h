@@ -76,6 +76,7 @@ class SurfaceState {
 
   private:
     void check_vertex(uint32_t vertex, const std::string& place) const;
+    SurfacePoint at_vertex(uint32_t vertex);
     SurfacePoint at_face(const FaceAddress& address, const std::string& place) const;
     void check_face(uint32_t face, const std::string& place) const;
     DistanceField straight_distances(const DistanceSources& sources, double radius) const;
@@ -87,6 +88,7 @@ class SurfaceState {
     KeptSolvers& solvers_;
     uint64_t number_;
     std::unique_ptr<SearchTree> tree_;
+    std::vector<uint32_t> first_triangles_; ///< of the vertices; empty: not asked for yet
 };
 
 } // namespace anvil

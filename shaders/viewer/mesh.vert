@@ -13,10 +13,12 @@ layout(binding = 3, scalar) readonly buffer Slots { uint slots[]; };
 layout(binding = 4, scalar) readonly buffer Ends { vec3 ends[]; };
 layout(binding = 5, scalar) readonly buffer RegionNormals { vec3 region_normals[]; };
 layout(binding = 6, scalar) readonly buffer Marks { vec2 marks[]; }; // weight, distance
+layout(binding = 7, scalar) readonly buffer Selected { uint selected[]; };
 
 layout(location = 0) out vec3 view_position;
 layout(location = 1) out vec3 view_normal;
 layout(location = 2) out vec2 mark; // outside a region: no weight, negative distance
+layout(location = 3) out float chosen; // 1: selected
 
 bool has(uint flag) { return (parameters.flags & flag) != 0u; }
 
@@ -24,6 +26,7 @@ void main() {
     vec3 position = positions[gl_VertexIndex];
     vec3 normal = normals[gl_VertexIndex];
     mark = vec2(0.0, -1.0);
+    chosen = has(MESH_SELECTION) ? float(selected[gl_VertexIndex]) : 0.0;
     if (has(MESH_HAS_REGION)) {
         uint slot = slots[gl_VertexIndex];
         if (slot != 0xffffffffu) {

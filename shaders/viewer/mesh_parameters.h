@@ -8,6 +8,8 @@
 #define MESH_TINTED 8u      // the region in the colours of its weights
 #define MESH_CONTOURS 16u   // lines of equal distance in the region
 #define MESH_PLAIN_BACK 32u // back faces are not told apart
+#define MESH_SELECTION 64u  // `selected` is bound
+#define MESH_LIGHTS 256u    // times 0 to 3: studio, clay, metal, stripes
 
 /// Push constants: what is drawn. The mesh's space to view space.
 struct MeshParameters {

@@ -1,5 +1,4 @@
-#include "tests/app/program.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/app/viewer_session.h"
 
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -11,30 +10,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A session of the viewer on a hand, without a person, with a state folder of its own.
-class Session {
-  public:
-    Session() { REQUIRE(run_anvil({"sample", "hand", "-o", mesh(), "--vertices", "4000"}).status == 0); }
-
-    std::string mesh() const { return folder_ / "hand.ply"; }
-    std::string file(const std::string& name) const { return folder_ / name; }
-
-    ProgramRun play(const std::string& script, const std::string& device,
-                    const std::string& opens = "") const {
-        const std::string path = folder_ / "script.txt";
-        std::ofstream(path) << script;
-        RunLimits limits;
-        limits.environment = {"ANVIL_STATE=" + file("state")};
-        limits.seconds = 300;
-        REQUIRE(std::getenv("DISPLAY") != nullptr); // tests/run gives one; by hand: xvfb-run -a
-        return run_anvil({"view", opens.empty() ? mesh() : opens, "--script", path, "--device", device},
-                         limits);
-    }
-
-  private:
-    ScratchFolder folder_;
-};
-
 /// Places of a hand's sample: the tip of a finger.
 const std::string setup = "window 900 600\nwait\nview front\nframe\nradius 0.3\n";
 const std::string bend = "move @0.0,10,0\nwait\ndrag 30 40\nwait\n";
@@ -45,7 +20,7 @@ TEST_CASE("A finger is bent, all is undone and redone, and the recipe forges the
           "[app][view]") {
     for (const std::string device : {"cpu", "0"}) {
         INFO(device);
-        const Session session;
+        const ViewerSession session;
         const std::string script =
             setup + bend + "expect edits 1\nsave " + session.file("bent.ply") + "\nsave " +
             session.file("bent.json") + "\nwait\nexpect unsaved no\nkey ctrl+z\nwait\nexpect edits 0\nsave " +
@@ -65,7 +40,7 @@ TEST_CASE("A finger is bent, all is undone and redone, and the recipe forges the
 }
 
 TEST_CASE("The device is switched in mid-edit, and the edit goes on", "[app][view]") {
-    const Session session;
+    const ViewerSession session;
     const ProgramRun run = session.play(setup + "move @0.0,10,0\nwait\npress\nmove @0.0,10,0 20 30\nwait\n"
                                                 "expect handles 1\ndevice 0\nwait\nexpect handles 1\n"
                                                 "move @0.0,10,0 30 40\nrelease\nwait\nexpect edits 1\n",
@@ -75,7 +50,7 @@ TEST_CASE("The device is switched in mid-edit, and the edit goes on", "[app][vie
 }
 
 TEST_CASE("An occluder is put in the way and stays in the saved edit with its pose", "[app][view]") {
-    const Session session;
+    const ViewerSession session;
     const ProgramRun run =
         session.play(setup + "occluder add ball sphere 0.1 0,0,2\nwait\nexpect occluders 1\n" + bend +
                          "occluder move ball 0,0,3\nwait\nsave " + session.file("ball.json") + "\nwait\n",
@@ -89,7 +64,7 @@ TEST_CASE("An occluder is put in the way and stays in the saved edit with its po
 }
 
 TEST_CASE("A session that is killed in mid-drag is recovered at the next start", "[app][view]") {
-    const Session session;
+    const ViewerSession session;
     const ProgramRun killed = session.play(
         setup + bend + "expect edits 1\nmove @0.0,10,0\nwait\npress\nmove @0.0,10,0 10 10\nwait\ndie\n",
         "cpu");
@@ -101,7 +76,7 @@ TEST_CASE("A session that is killed in mid-drag is recovered at the next start",
 
 TEST_CASE("A script that cannot be played says the line, and a mesh that is not there is status 2",
           "[app][view]") {
-    const Session session;
+    const ViewerSession session;
     const ProgramRun wrong = session.play("wait\nexpect edits 3\n", "cpu");
     CHECK(wrong.status == 2);
     CHECK_THAT(wrong.err, Catch::Contains(":2: expected edits 3, found 0"));

@@ -1,6 +1,7 @@
 #include "app/viewer/panels/edit_panel.h"
 
 #include "app/viewer/panels/controls.h"
+#include "app/viewer/panels/mirror_controls.h"
 
 #include <array>
 #include <imgui.h>
@@ -13,13 +14,17 @@ void EditPanel::show(Session& session) {
     ImGui::SetNextWindowSizeConstraints(ImVec2(side_width, 0), ImVec2(side_width, window.y));
     ImGui::Begin("Edit", nullptr, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize);
     Editor& editor = session.editor;
-    constexpr std::array<std::pair<const char*, Tool>, 4> tools{
-        {{"Move", Tool::move}, {"Turn", Tool::turn}, {"Anchor", Tool::anchor}, {"Pin", Tool::pin}}};
+    constexpr std::array<std::pair<const char*, Tool>, 6> tools{{{"Move", Tool::move},
+                                                                 {"Turn", Tool::turn},
+                                                                 {"Anchor", Tool::anchor},
+                                                                 {"Pin", Tool::pin},
+                                                                 {"Line", Tool::line},
+                                                                 {"Select", Tool::select}}};
     for (const auto& [name, tool] : tools) {
         if (ImGui::RadioButton(name, editor.tool == tool)) {
             editor.tool = tool;
         }
-        if (tool != Tool::pin) {
+        if (tool != Tool::pin && tool != Tool::select) {
             ImGui::SameLine();
         }
     }
@@ -40,6 +45,7 @@ void EditPanel::show(Session& session) {
     if (editor.refine) {
         changed = length_slider("tolerance", editor.refine->shape_tolerance, 0.1) || changed;
     }
+    changed = mirror_controls(editor.mirror, session.bounds()) || changed;
     if (changed) {
         editor.settings_changed();
     }

@@ -1,5 +1,7 @@
 #include "app/viewer/panels/menu_bar.h"
 
+#include "app/viewer/panels/select_menu.h"
+
 #include <imgui.h>
 
 namespace anvil {
@@ -58,12 +60,25 @@ void view_menu(Session& session) {
         ImGui::MenuItem("Colours of the region", nullptr, &session.view.tint);
         ImGui::MenuItem("Lines of equal distance", "I", &session.view.contours);
         ImGui::MenuItem("Occluders", nullptr, &session.view.occluders);
+        if (ImGui::BeginMenu("Light")) {
+            for (const auto& [name, lights] : light_names()) {
+                if (ImGui::MenuItem(name, nullptr, session.view.lights == lights)) {
+                    session.view.lights = lights;
+                }
+            }
+            ImGui::EndMenu();
+        }
+        bool z_up = session.camera.upright() == UpAxis::z;
+        if (ImGui::MenuItem("Z points up", nullptr, &z_up)) {
+            session.set_up(z_up ? UpAxis::z : UpAxis::y);
+        }
         ImGui::MenuItem("Parallel view", "5", &session.camera.orthographic);
         ImGui::MenuItem("Trackball", "T", &session.camera.trackball);
         bool maya = session.navigation.preset == MousePreset::maya;
         if (ImGui::MenuItem("Mouse as in Maya", nullptr, &maya)) {
             session.navigation.preset = maya ? MousePreset::maya : MousePreset::blender;
         }
+        ImGui::MenuItem("Less detail in motion", nullptr, &session.view.less_in_motion);
         ImGui::MenuItem("Panels", "Tab", &session.view.panels);
         ImGui::EndMenu();
     }
@@ -95,6 +110,7 @@ void show_menu(Session& session, FileDialogs& files) {
     }
     file_menu(session, files);
     edit_menu(session);
+    select_menu(session);
     view_menu(session);
     device_menu(session);
     help_menu(session);

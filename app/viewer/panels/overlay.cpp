@@ -1,5 +1,8 @@
 #include "app/viewer/panels/overlay.h"
 
+#include "app/viewer/panels/line_marks.h"
+#include "app/viewer/panels/selection_marks.h"
+
 #include <imgui.h>
 
 namespace anvil {
@@ -8,6 +11,7 @@ namespace {
 
 constexpr ImU32 outline = IM_COL32(20, 20, 24, 230);
 constexpr ImU32 handle_colour = IM_COL32(255, 176, 32, 255);
+constexpr ImU32 mirrored_colour = IM_COL32(190, 150, 80, 255);
 constexpr ImU32 target_colour = IM_COL32(255, 255, 255, 255);
 constexpr ImU32 anchor_colour = IM_COL32(64, 150, 255, 255);
 constexpr ImU32 pin_colour = IM_COL32(230, 90, 160, 255);
@@ -99,6 +103,11 @@ void draw_overlay(const Session& session) {
             marks.ring(target, 7, target_colour);
         }
         marks.disc(end, i == editor.active() ? 6.5F : 5.0F, handle_colour);
+    }
+    draw_selection_marks(session);
+    draw_line_marks(session);
+    for (size_t i = editor.handles().size(); drag && i < drag->ends.size(); ++i) {
+        marks.disc(drag->ends[i], 3.5F, mirrored_colour); // of the other side
     }
     for (const PickedPlace& pin : editor.pins()) {
         marks.square(pin.position, 4, pin_colour);

@@ -31,6 +31,12 @@ void show_status(Session& session, const FrameTimes& times) {
                std::to_string(surface.mesh->vertex_count()) + " vertices, " +
                std::to_string(surface.mesh->polygon_count()) + " faces   " + rounded_text(extent.x) + " x " +
                rounded_text(extent.y) + " x " + rounded_text(extent.z);
+        if (shown.look->selected_count > 0) {
+            line += "   selected " + std::to_string(shown.look->selected_count);
+        }
+        if (shown.look->hidden_count > 0) {
+            line += "   hidden " + std::to_string(shown.look->hidden_count);
+        }
         if (shown.drag) {
             line += "   region " + std::to_string(shown.drag->region) + ", condition " +
                     rounded_text(shown.drag->condition) + ", step " +

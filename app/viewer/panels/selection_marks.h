@@ -1,0 +1,10 @@
+// Box and lasso over the window, and the pins that last.
+#pragma once
+
+#include "app/viewer/session.h"
+
+namespace anvil {
+
+void draw_selection_marks(const Session& session);
+
+} // namespace anvil

@@ -1,0 +1,98 @@
+// What a session shows of its state.
+#include "app/viewer/session.h"
+
+#include "engine/occluder/shape_nodes.h"
+
+#include <algorithm>
+
+namespace anvil {
+
+namespace {
+
+constexpr std::chrono::milliseconds motion_after_zoom(200);
+const glm::vec4 occluder_colour(0.17F, 0.34F, 0.52F, 0.42F);
+
+glm::mat4 model_view(const OrbitCamera& camera, const Transform& transform) {
+    const Placement place = placement(transform);
+    const glm::dmat3 axes(place.axes[0] * place.scale, place.axes[1] * place.scale,
+                          place.axes[2] * place.scale);
+    return camera.view(place.origin) * glm::mat4(glm::mat3(axes));
+}
+
+/// Translucent things with how far they are from the eye.
+using Translucent = std::vector<std::pair<double, SceneItem>>;
+
+} // namespace
+
+SceneItem Session::surface_item() const {
+    SceneItem surface;
+    surface.mesh = shown_->mesh;
+    surface.region = shown_->region;
+    surface.model_view = camera.view(shown_->mesh->origin);
+    const bool coarse = view.less_in_motion && in_motion() && shown_->look->coarse;
+    surface.indices = coarse ? shown_->look->coarse : shown_->look->indices;
+    surface.selected = shown_->look->selected;
+    surface.lights = view.lights;
+    surface.flat = view.flat;
+    surface.edges = view.edges;
+    surface.tinted = view.tint;
+    surface.contour_spacing = view.contours ? static_cast<float>(editor.radius / 10) : 0.0F;
+    return surface;
+}
+
+bool Session::in_motion() const {
+    return navigation.active() || std::chrono::steady_clock::now() - zoomed_at_ < motion_after_zoom;
+}
+
+Scene Session::scene() const {
+    Scene scene;
+    if (!shown_->mesh) {
+        return scene;
+    }
+    scene.items.push_back(surface_item());
+    Box all = bounds();
+    if (shown_->drag) { // what is dragged may leave the box
+        for (const Vec3& end : shown_->drag->ends) {
+            all.include(end - Vec3(editor.radius));
+            all.include(end + Vec3(editor.radius));
+        }
+    }
+    Translucent translucent;
+    if (editor.mirror) {
+        const MirrorPlane::Place plane = mirror_plane_.place(*editor.mirror, bounds());
+        SceneItem item = mirror_plane_.item();
+        item.model_view = camera.view(plane.origin) * glm::mat4(plane.axes);
+        for (const Vec3& corner : plane.corners()) {
+            all.include(corner);
+        }
+        translucent.emplace_back(camera.project(plane.origin).depth, std::move(item));
+    }
+    if (view.occluders) {
+        for (const OccluderView& occluder : shown_->occluders) {
+            SceneItem item;
+            item.mesh = occluder.mesh;
+            item.model_view = model_view(camera, occluder.transform);
+            item.colour = occluder_colour;
+            item.tinted = false;
+            const Placement place = placement(occluder.transform);
+            if (item.mesh->box.empty()) {
+                continue;
+            }
+            const double reach =
+                place.scale * (glm::length(item.mesh->box.centre()) + item.mesh->box.diagonal());
+            all.include(place.origin - Vec3(reach));
+            all.include(place.origin + Vec3(reach));
+            translucent.emplace_back(camera.project(place.origin).depth, std::move(item));
+        }
+    }
+    std::stable_sort(translucent.begin(), translucent.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (auto& [depth, item] : translucent) {
+        scene.items.push_back(std::move(item));
+    }
+    scene.projection = camera.projection(all);
+    scene.orthographic = camera.orthographic;
+    return scene;
+}
+
+} // namespace anvil
