@@ -29,7 +29,7 @@ constexpr std::array words{
     Word{"occluder", 2, 9}, Word{"expect", 2, 3},  Word{"refine", 1, 1},  Word{"amount", 2, 2},
     Word{"say", 1, 1},      Word{"recover", 0, 0}, Word{"die", 0, 0},     Word{"metric", 1, 1},
     Word{"up", 1, 1},       Word{"light", 1, 1},   Word{"mirror", 1, 2},  Word{"edges", 1, 1},
-    Word{"flat", 1, 1},     Word{"select", 1, 1},
+    Word{"flat", 1, 1},     Word{"select", 1, 1},  Word{"motion", 1, 1},
 };
 
 std::vector<std::string> split(const std::string& line) {

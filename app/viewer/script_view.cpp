@@ -73,6 +73,8 @@ bool play_view_word(const ScriptLine& line, Session& session) {
         session.view.edges = choice(line, {"on", "off"}) == 0;
     } else if (line.word == "flat") {
         session.view.flat = choice(line, {"on", "off"}) == 0;
+    } else if (line.word == "motion") {
+        session.view.less_in_motion = choice(line, {"coarse", "fine"}) == 0;
     } else if (line.word == "mirror") {
         set_mirror(line, session);
     } else if (line.word == "select") {
