@@ -291,6 +291,14 @@ std::string Editor::hint() const {
                "   X Y Z N: axis   Shift+X Y Z N: plane   wheel: radius   Ctrl: snap   Shift: precise   "
                "Enter: take   Esc: cancel";
     }
+    if (tool == Tool::line) {
+        return "Click the points of a line along the surface   Enter, or the last point again: end it   first "
+               "point: close it   Shift+Enter: another handle   Backspace: a point less   Esc: drop it";
+    }
+    if (tool == Tool::select) {
+        return "Drag a box (B) or a lasso (Shift+B)   Shift: add   Ctrl: take away   V: through the surface   + - "
+               "H Ctrl+I: grow, shrink, hide, invert   Ctrl+P: pin   Shift+A: anchors   G: move";
+    }
     if (has_handles()) {
         const size_t count = handles_.all.size();
         return std::to_string(count) + (count == 1 ? " handle" : " handles") +
