@@ -2,6 +2,7 @@
 
 #include "app/viewer/window.h"
 #include "engine/core/error.h"
+#include "engine/edit/surface_address.h"
 
 #include <algorithm>
 #include <array>
@@ -29,7 +30,8 @@ constexpr std::array words{
     Word{"occluder", 2, 9}, Word{"expect", 2, 3},  Word{"refine", 1, 1},  Word{"amount", 2, 2},
     Word{"say", 1, 1},      Word{"recover", 0, 0}, Word{"die", 0, 0},     Word{"metric", 1, 1},
     Word{"up", 1, 1},       Word{"light", 1, 1},   Word{"mirror", 1, 2},  Word{"edges", 1, 1},
-    Word{"flat", 1, 1},     Word{"select", 1, 1},  Word{"motion", 1, 1},
+    Word{"flat", 1, 1},     Word{"select", 1, 1},  Word{"motion", 1, 1},  Word{"dilation", 1, 3},
+    Word{"hammer", 1, 1},
 };
 
 std::vector<std::string> split(const std::string& line) {
@@ -129,6 +131,14 @@ double script_number(const std::string& text) {
         throw InputError("\"" + text + "\" is no number");
     }
     return value;
+}
+
+Vec3 script_point(const std::string& text) {
+    const SurfaceAddress address = parse_address(text);
+    if (const auto* near = std::get_if<NearestAddress>(&address)) {
+        return near->point;
+    }
+    throw InputError("\"" + text + "\" is no point; write x,y,z");
 }
 
 } // namespace anvil

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/viewer/input_event.h"
+#include "engine/core/types.h"
 
 #include <filesystem>
 #include <string>
@@ -25,5 +26,8 @@ InputEvent key_event(const std::string& text, bool down);
 
 /// A finite number. @throws InputError
 double script_number(const std::string& text);
+
+/// `x,y,z`. @throws InputError
+Vec3 script_point(const std::string& text);
 
 } // namespace anvil

@@ -1,6 +1,6 @@
 #include "app/viewer/script_player.h"
 
-#include "app/viewer/panels/occluder_panel.h"
+#include "app/viewer/script_occluders.h"
 #include "app/viewer/script_view.h"
 #include "engine/core/error.h"
 #include "engine/core/number_text.h"
@@ -15,14 +15,7 @@ namespace anvil {
 namespace {
 
 constexpr int drag_frames = 8;
-
-Vec3 point_of(const std::string& text) {
-    const SurfaceAddress address = parse_address(text);
-    if (const auto* near = std::get_if<NearestAddress>(&address)) {
-        return near->point;
-    }
-    throw InputError("\"" + text + "\" is no point; write x,y,z");
-}
+const std::string gizmo_word = "@gizmo.";
 
 MouseButton button_of(const std::string& name) {
     if (name == "left" || name == "middle" || name == "right") {
@@ -33,11 +26,13 @@ MouseButton button_of(const std::string& name) {
     throw InputError("there is no button \"" + name + "\"; there are left, middle and right");
 }
 
-Recipe recipe_of(const Session& session) {
-    if (!session.shown().document.recipe) {
-        throw InputError("nothing is open");
-    }
-    return *session.shown().document.recipe;
+/// Whether something touches an occluder: in the drag, under one that is moved, after the last edit.
+std::string touching_of(const Shown& shown) {
+    const bool touches = shown.drag       ? shown.drag->contact && shown.drag->contact->touching.vertices > 0
+                         : shown.standing ? shown.standing->vertices > 0
+                                          : shown.document.surface->report.contact &&
+                                                shown.document.surface->report.contact->contact_vertices > 0;
+    return touches ? "yes" : "no";
 }
 
 } // namespace
@@ -129,6 +124,9 @@ bool ScriptPlayer::play(const ScriptLine& line, Session& session, Window& window
 
 void ScriptPlayer::act(const ScriptLine& line, Session& session, Window& window) {
     const std::vector<std::string>& with = line.arguments;
+    if (play_occluder_line(line, session)) {
+        return;
+    }
     if (line.word == "window") {
         window.resize({static_cast<int>(script_number(with[0])), static_cast<int>(script_number(with[1]))});
     } else if (line.word == "open") {
@@ -164,57 +162,19 @@ void ScriptPlayer::act(const ScriptLine& line, Session& session, Window& window)
         }
         session.editor.settings_changed();
     } else if (line.word == "amount") {
-        Recipe next = recipe_of(session);
+        Recipe next = script_recipe(session);
         const double number = script_number(with[0]);
         if (!(number >= 0 && number < static_cast<double>(next.edits.size()))) {
             throw InputError("there is no edit " + with[0]);
         }
         next.edits[static_cast<size_t>(number)].amount = script_number(with[1]);
         session.change(next, "change of an edit", "edit " + with[0]);
-    } else if (line.word == "occluder") {
-        change_occluder(line, session);
     } else if (line.word == "expect") {
         expect(line, session);
     } else if (play_view_word(line, session)) {
         return;
     } else if (line.word == "say") {
         std::cout << with[0] << std::endl; // read by whoever waits for it: not kept in a buffer
-    }
-}
-
-void ScriptPlayer::change_occluder(const ScriptLine& line, Session& session) const {
-    const std::vector<std::string>& with = line.arguments;
-    const auto need = [&](size_t count, const char* form) {
-        if (with.size() != count) {
-            throw InputError(std::string("write: occluder ") + form);
-        }
-    };
-    Recipe next = recipe_of(session);
-    const auto found = std::find_if(next.occluders.begin(), next.occluders.end(),
-                                    [&](const Occluder& o) { return o.name == with[1]; });
-    if (with[0] == "add") {
-        need(5, "add NAME SHAPE SIZE X,Y,Z");
-        Occluder occluder;
-        occluder.name = with[1];
-        occluder.shape = occluder_shape(with[2], script_number(with[3]));
-        occluder.transform.translate = point_of(with[4]);
-        next.occluders.push_back(occluder);
-        session.change(next, "new occluder");
-        return;
-    }
-    if (found == next.occluders.end()) {
-        throw InputError("there is no occluder \"" + with[1] + "\"");
-    }
-    if (with[0] == "move") {
-        need(3, "move NAME X,Y,Z");
-        found->transform.translate = point_of(with[2]);
-        session.change(next, "occluder's place");
-    } else if (with[0] == "remove") {
-        need(2, "remove NAME");
-        next.occluders.erase(found);
-        session.change(next, "removal of an occluder");
-    } else {
-        throw InputError("occluders can be added, moved and removed: write add, move or remove");
     }
 }
 
@@ -239,6 +199,8 @@ void ScriptPlayer::expect(const ScriptLine& line, Session& session) const {
                 : with[0] == "redo"      ? shown.document.redo
                 : with[0] == "unsaved"   ? (shown.document.unsaved ? "yes" : "no")
                 : with[0] == "device"    ? shown.device
+                : with[0] == "touching"  ? touching_of(shown)
+                : with[0] == "selected"  ? session.occluders.selected()
                                          : "nothing of that name";
     }
     if (found != with[1]) {
@@ -283,9 +245,16 @@ void ScriptPlayer::move_to(const ScriptLine& line, const Session& session) {
     const std::vector<std::string>& with = line.arguments;
     if (!with[0].starts_with('@')) {
         if (with.size() != 2) {
-            throw InputError("write: move X Y, or move @ADDRESS [DX DY]");
+            throw InputError("write: move X Y, move @ADDRESS [DX DY], or move @gizmo.MARK [DX DY]");
         }
         add_move(script_number(with[0]), script_number(with[1]));
+        return;
+    }
+    const double dx = with.size() == 3 ? script_number(with[1]) : 0;
+    const double dy = with.size() == 3 ? script_number(with[2]) : 0;
+    if (with[0].starts_with(gizmo_word)) {
+        const glm::dvec2 mark = gizmo_place(session, with[0].substr(gizmo_word.size()));
+        add_move(mark.x + dx, mark.y + dy);
         return;
     }
     const PickSurface* surface = session.shown().pick.get();
@@ -298,8 +267,7 @@ void ScriptPlayer::move_to(const ScriptLine& line, const Session& session) {
     if (!at.visible()) {
         throw InputError("the point " + with[0].substr(1) + " is behind the eye");
     }
-    add_move(at.x + (with.size() == 3 ? script_number(with[1]) : 0),
-             at.y + (with.size() == 3 ? script_number(with[2]) : 0));
+    add_move(at.x + dx, at.y + dy);
 }
 
 } // namespace anvil

@@ -26,7 +26,6 @@ class ScriptPlayer {
   private:
     bool play(const ScriptLine& line, Session& session, Window& window);
     void act(const ScriptLine& line, Session& session, Window& window);
-    void change_occluder(const ScriptLine& line, Session& session) const;
     void expect(const ScriptLine& line, Session& session) const;
     void add_mouse(InputEvent::Kind kind, const std::vector<std::string>& arguments);
     void add_move(double x, double y);

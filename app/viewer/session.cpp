@@ -58,7 +58,7 @@ void Session::ask(const std::string& what, Worker::Job job, const std::string& r
 }
 
 void Session::open(const std::filesystem::path& file, const std::filesystem::path& mesh) {
-    editor.clear();
+    leave_pending();
     ask("opening " + file.filename().string(),
         [this, file, mesh](Progress& progress) { bench_->open(file, mesh, progress); });
 }
@@ -67,7 +67,7 @@ void Session::recover() {
     if (lost_.empty()) {
         throw InputError("no session was lost");
     }
-    editor.clear();
+    leave_pending();
     ask("recovering a session",
         [this, lost = lost_.front()](Progress& progress) { bench_->recover(*lost, progress); });
     lost_.clear();
@@ -93,12 +93,12 @@ void Session::save(const std::filesystem::path& file) {
 }
 
 void Session::undo() {
-    editor.clear();
+    leave_pending();
     ask("undo", [this](Progress& progress) { bench_->undo(progress); });
 }
 
 void Session::redo() {
-    editor.clear();
+    leave_pending();
     ask("redo", [this](Progress& progress) { bench_->redo(progress); });
 }
 
@@ -110,30 +110,30 @@ void Session::change(const Recipe& next, const std::string& what, const std::str
     ask(
         what, [this, next, what, merge](Progress& progress) { bench_->change(next, what, merge, progress); },
         merge.empty() ? "" : "change " + merge);
-    editor.settings_changed(); // handles that are placed act on the new state
+    options_changed(); // handles that are placed act on the new state
 }
 
 void Session::commit() {
-    if (!editor.has_handles()) {
+    if (!has_pending()) {
         return;
     }
-    const Edit edit = editor.edit();
-    const std::string what = edit.kind == EditKind::rotate ? "turn" : "move";
-    editor.clear();
+    const Edit edit = pending();
+    const std::string what = edit.handles.empty()            ? "hammer"
+                             : edit.kind == EditKind::rotate ? "turn"
+                                                             : "move";
+    leave_pending();
     ask(what, [this, edit, what](Progress& progress) { bench_->commit(edit, what, progress); });
 }
 
 void Session::drop() {
-    editor.clear();
+    leave_pending();
     ask("dropping the edit", [this](Progress&) { bench_->drop_preview(); });
 }
 
 void Session::update() {
     switch (editor.take_wish()) {
     case EditorWish::preview:
-        ask(
-            "following",
-            [this, edit = editor.edit()](Progress& progress) { bench_->preview(edit, progress); }, "preview");
+        follow();
         break;
     case EditorWish::commit:
         commit();
@@ -144,6 +144,7 @@ void Session::update() {
     case EditorWish::nothing:
         break;
     }
+    follow_occluders();
     take_up();
     trace_line();
 }
@@ -173,6 +174,9 @@ void Session::take_up() {
         recent_ = recent_files_.list();
         editor.set_lasting_pins({});
         editor.radius = default_radius * bounds().diagonal();
+        occluders.set_scene_size(bounds().diagonal() > 0 ? bounds().diagonal() : 1);
+        occluders.select("");
+        options = {};
         camera.frame(shown_->document.surface->positions, camera.side(Vec3(0.35, 0.25, 1.0)));
     }
 }
@@ -214,11 +218,14 @@ void Session::handle(const InputEvent& event) {
     if (camera_first) {
         return;
     }
-    if (!editor.dragging() && (handle_line(event) || handle_selection(event))) {
+    const bool dragging = editor.dragging() || occluders.dragging();
+    if (!dragging && (handle_line(event) || handle_selection(event))) {
         return;
     }
     const PickSurface* surface = shown_->pick.get();
-    if (editor.handle(event, camera, surface)) {
+    const bool occluders_first = view.occluders && !editor.dragging();
+    if ((occluders_first && occluders.handle(event, camera, shown_->occluders, surface)) ||
+        editor.handle(event, camera, surface)) {
         return;
     }
     if (event.kind == InputEvent::Kind::scroll) {
@@ -231,6 +238,9 @@ void Session::handle(const InputEvent& event) {
 
 void Session::key(const InputEvent& event) {
     const int number = event.key;
+    if (occluder_key(event)) {
+        return;
+    }
     if (event.modifiers.control) {
         if (number == 'Z') {
             event.modifiers.shift ? redo() : undo();

@@ -1,10 +1,12 @@
 // The viewer without its window: what events, panels and scripts do, and what is to be drawn.
 #pragma once
 
+#include "app/viewer/edit_options.h"
 #include "app/viewer/editor.h"
 #include "app/viewer/line_tool.h"
 #include "app/viewer/mirror_plane.h"
 #include "app/viewer/navigation.h"
+#include "app/viewer/occluder_tool.h"
 #include "app/viewer/scene.h"
 #include "app/viewer/select_tool.h"
 #include "app/viewer/workbench.h"
@@ -47,6 +49,8 @@ class Session {
     ~Session();
 
     Editor editor;
+    OccluderTool occluders;
+    EditOptions options; ///< after a change: options_changed()
     OrbitCamera camera;
     Navigation navigation;
     ViewSettings view;
@@ -69,6 +73,13 @@ class Session {
     void redo();
     void commit();
     void drop();
+    void options_changed();
+    /// There is something to take: handles, or a hammer's motion.
+    bool has_pending() const;
+    /// The edit as it would be taken.
+    Edit pending() const;
+    /// One line: what goes on and which keys matter now.
+    std::string hint() const;
     void cancel_work() { worker_->cancel(); }
     void use_device(const std::string& choice);
     /// Another recipe, as one step; `merge` as Document::change().
@@ -107,6 +118,13 @@ class Session {
     bool in_motion() const;
     void complain(const std::string& text) { notices_.push_back({true, text}); }
     SceneItem surface_item() const;
+    bool occluder_key(const InputEvent& event);
+    void follow();
+    void follow_occluders();
+    void move_occluder(const std::string& name);
+    void leave_pending();
+    std::optional<std::vector<OccluderUse>> uses_now() const;
+    Anchors strike_anchor() const;
     void take_up();
     void failed(const std::exception_ptr& error);
     void ask(const std::string& what, Worker::Job job, const std::string& replaces = "");

@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::chrono::milliseconds motion_after_zoom(200);
 const glm::vec4 occluder_colour(0.17F, 0.34F, 0.52F, 0.42F);
+const glm::vec4 selected_colour(0.15F, 0.42F, 0.72F, 0.5F);
+const glm::vec4 off_colour(0.3F, 0.3F, 0.3F, 0.12F);
 
 glm::mat4 model_view(const OrbitCamera& camera, const Transform& transform) {
     const Placement place = placement(transform);
@@ -71,10 +73,13 @@ Scene Session::scene() const {
         for (const OccluderView& occluder : shown_->occluders) {
             SceneItem item;
             item.mesh = occluder.mesh;
-            item.model_view = model_view(camera, occluder.transform);
-            item.colour = occluder_colour;
+            const Transform at = occluders.shown(occluder);
+            item.model_view = model_view(camera, at);
+            item.colour = options.off.contains(occluder.name)     ? off_colour
+                          : occluder.name == occluders.selected() ? selected_colour
+                                                                  : occluder_colour;
             item.tinted = false;
-            const Placement place = placement(occluder.transform);
+            const Placement place = placement(at);
             if (item.mesh->box.empty()) {
                 continue;
             }

@@ -187,11 +187,12 @@ void Workbench::show_document(Progress& progress) {
     next.device = backend_->device_name();
     make_occluders(progress);
     for (const Occluder& occluder : recipe_->occluders) {
-        next.occluders.push_back(
-            {occluder.name, occluder_meshes_.at(occluder.name).second, occluder.transform});
+        next.occluders.push_back(occluder_views_.at(occluder.name).second);
+        next.occluders.back().transform = occluder.transform;
     }
     if (!same_surface) {
         scene_.reset();
+        whole_.reset();
         surface_ = surface;
     }
     publish(next);
@@ -246,26 +247,29 @@ DragScene& Workbench::scene() {
 void Workbench::make_occluders(Progress& progress) {
     recipe_ = document().state().recipe;
     occluders_.emplace(document().occluders(*recipe_, work(progress)));
-    std::map<std::string, std::pair<OccluderShape, std::shared_ptr<DrawnMesh>>> meshes;
+    std::map<std::string, std::pair<OccluderShape, OccluderView>> views;
     Box scene;
     for (const Vec3& p : document().surface()->positions) {
         scene.include(p);
     }
     for (const Occluder& occluder : recipe_->occluders) {
-        const auto known = occluder_meshes_.find(occluder.name);
+        const auto known = occluder_views_.find(occluder.name);
         // A plane's patch lies where the scene is.
         const bool is_plane = std::holds_alternative<PlaneShape>(occluder.shape.solid);
-        if (known != occluder_meshes_.end() && known->second.first == occluder.shape && !is_plane) {
-            meshes.insert(*known);
+        if (known != occluder_views_.end() && known->second.first == occluder.shape && !is_plane) {
+            views.insert(*known);
             continue;
         }
         const Mesh surface = shown_surface(occluder.shape, placement(occluder.transform), scene,
                                            {recipe_folder(*recipe_), nullptr}, occluder_cells);
-        meshes[occluder.name] = {
-            occluder.shape,
-            std::make_shared<DrawnMesh>(device_->state(), surface, surface.positions, Vec3(0), false)};
+        OccluderView view;
+        view.name = occluder.name;
+        view.mesh = std::make_shared<DrawnMesh>(device_->state(), surface, surface.positions, Vec3(0), false);
+        view.tree = std::make_shared<const SearchTree>(surface.positions, surface.triangles);
+        view.pivot = pivot_of(occluder.shape, view.mesh->box);
+        views[occluder.name] = {occluder.shape, std::move(view)};
     }
-    occluder_meshes_ = std::move(meshes);
+    occluder_views_ = std::move(views);
 }
 
 void Workbench::preview(const Edit& edit, Progress& /*progress*/) {
@@ -280,6 +284,8 @@ void Workbench::preview(const Edit& edit, Progress& /*progress*/) {
         session_ = std::make_unique<DragSession>(scene(), *occluders_, *backend_, edit, log_);
         regions_seen_ = 0;
         shapes_seen_ = 0;
+        probe_.reset();
+        contact_seconds_ = 0;
     }
     session_->wait();
     show_drag(milliseconds_since(start));
@@ -308,8 +314,11 @@ void Workbench::show_drag(double milliseconds) {
                   {},
                   region.vertices.size(),
                   session_->motion().solution.condition,
-                  milliseconds};
-    view.ends = handle_ends(region, session_->positions(), surface_->positions);
+                  milliseconds,
+                  {}};
+    const std::vector<Vec3> ends = session_->positions();
+    view.ends = handle_ends(region, ends, surface_->positions);
+    view.contact = drag_contact(ends, false);
     next.drag = std::move(view);
     publish(next);
 }
@@ -345,6 +354,7 @@ void Workbench::drop_preview() {
     Shown next = *shown();
     next.region.reset();
     next.drag.reset();
+    next.standing.reset();
     publish(next);
 }
 

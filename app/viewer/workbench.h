@@ -2,7 +2,9 @@
 // what it shows can be looked at from any.
 #pragma once
 
-#include "app/viewer/drawn_mesh.h"
+#include "app/viewer/live_contact.h"
+#include "app/viewer/pick_surface.h"
+#include "app/viewer/shown_occluder.h"
 #include "app/viewer/surface_look.h"
 #include "engine/document/autosave.h"
 #include "engine/document/document.h"
@@ -19,6 +21,12 @@
 
 namespace anvil {
 
+/// What a drag touches, and the volume (signed, as enclosed_volume()) of a closed mesh before and after it.
+struct DragContact {
+    LiveContact touching;
+    std::optional<std::array<double, 2>> volume;
+};
+
 /// How a drag stands.
 struct DragView {
     Edit edit;
@@ -26,14 +34,8 @@ struct DragView {
     std::vector<Vec3> ends;   ///< where they are: not always where they are wanted, past an occluder
     size_t region = 0;        ///< vertices
     double condition = 1;
-    double milliseconds = 0; ///< of the last update
-};
-
-/// An occluder in its own space, and where it is.
-struct OccluderView {
-    std::string name;
-    std::shared_ptr<DrawnMesh> mesh;
-    Transform transform;
+    double milliseconds = 0;            ///< of the last update
+    std::optional<DragContact> contact; ///< not measured yet: empty
 };
 
 /// One state of the workbench; never changed once it is shown.
@@ -47,6 +49,7 @@ struct Shown {
     std::filesystem::path mesh_file;
     std::vector<OccluderView> occluders;
     std::optional<DragView> drag;
+    std::optional<LiveContact> standing; ///< of the surface as it is, while an occluder is moved
     std::string device;
 };
 
@@ -69,6 +72,10 @@ class Workbench {
     /// Shows the edit at the end of the recipe, without taking it. @throws InputError: the one before stays
     void preview(const Edit& edit, Progress& progress);
     void drop_preview();
+    /// What the drag touches, if preview() has left it out since it takes long.
+    void measure_contact();
+    /// What of the surface as it is touches the occluders that the edit uses.
+    void touch(const Edit& uses);
     /// Takes the edit into the recipe. It is dropped if that fails.
     void commit(const Edit& edit, const std::string& what, Progress& progress);
     /// Takes another recipe: occluders, past edits.
@@ -93,6 +100,7 @@ class Workbench {
     void show_look();
     void refuse_ill_conditioned(const Edit& before);
     void show_drag(double milliseconds);
+    std::optional<DragContact> drag_contact(std::span<const Vec3> ends, bool whatever_it_takes);
     std::shared_ptr<const DrawnRegion> drawn_region();
     void publish(const Shown& next);
 
@@ -111,7 +119,11 @@ class Workbench {
     size_t regions_seen_ = 0; ///< of the session's work: what the last region was made of
     size_t shapes_seen_ = 0;
     std::shared_ptr<Buffer> marks_;
-    std::map<std::string, std::pair<OccluderShape, std::shared_ptr<DrawnMesh>>> occluder_meshes_;
+    std::map<std::string, std::pair<OccluderShape, OccluderView>> occluder_views_;
+    std::optional<ContactProbe> probe_; ///< of the drag's region
+    size_t probed_region_ = 0;
+    double contact_seconds_ = 0;        ///< that the last one took
+    std::optional<ContactProbe> whole_; ///< of the surface
 
     mutable std::mutex mutex_; ///< of what follows
     std::shared_ptr<const Shown> shown_;

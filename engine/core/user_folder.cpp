@@ -32,4 +32,8 @@ std::optional<fs::path> user_state_folder() {
     return user_folder("ANVIL_STATE", "XDG_STATE_HOME", ".local/state");
 }
 
+std::optional<fs::path> user_data_folder() {
+    return user_folder("ANVIL_DATA", "XDG_DATA_HOME", ".local/share");
+}
+
 } // namespace anvil

@@ -13,4 +13,7 @@ std::optional<std::filesystem::path> user_folder(const char* own, const char* sh
 /// For what should outlast a cache but is no document: ANVIL_STATE, XDG_STATE_HOME or ~/.local/state.
 std::optional<std::filesystem::path> user_state_folder();
 
+/// For what a user made and uses in many documents: ANVIL_DATA, XDG_DATA_HOME or ~/.local/share.
+std::optional<std::filesystem::path> user_data_folder();
+
 } // namespace anvil

@@ -1,7 +1,6 @@
 #include "app/viewer/panels/curve_editor.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <imgui.h>
 
@@ -19,21 +18,6 @@ constexpr ImU32 curve_colour = IM_COL32(255, 176, 32, 255);
 constexpr ImU32 knot_colour = IM_COL32(255, 255, 255, 255);
 constexpr ImU32 slope_colour = IM_COL32(64, 150, 255, 255);
 
-/// Places on the canvas: t from left to right, values from `least` to `most` upwards.
-struct Canvas {
-    ImVec2 low;
-    ImVec2 size;
-    double least;
-    double most;
-
-    ImVec2 place(double t, double value) const {
-        return {low.x + static_cast<float>(t) * size.x,
-                low.y + size.y * static_cast<float>((most - value) / (most - least))};
-    }
-    double t_at(float x) const { return (x - low.x) / size.x; }
-    double value_at(float y) const { return most - (y - low.y) / size.y * (most - least); }
-};
-
 float apart(const ImVec2& a, const ImVec2& b) {
     return std::hypot(a.x - b.x, a.y - b.y);
 }
@@ -43,25 +27,63 @@ double slope_of(const std::optional<double>& given, const ShapeFunction& phi, do
     return given.value_or((phi(t + side * step) - phi(t)) / (side * step));
 }
 
-/// All of the curve, and room to drag it further.
-Canvas canvas_for(const ShapeFunction& phi) {
-    Canvas canvas{ImGui::GetCursorScreenPos(), ImVec2(ImGui::GetContentRegionAvail().x, height), -0.3, 1.15};
-    constexpr int steps = 200;
-    for (int i = 0; i <= steps; ++i) {
-        const double value = 1.1 * phi(static_cast<double>(i) / steps);
-        canvas.least = std::min(canvas.least, value);
-        canvas.most = std::max(canvas.most, value);
-    }
-    return canvas;
-}
+} // namespace
 
-void draw_curve(const Canvas& canvas, const ShapeFunction& phi) {
+/// Places on the canvas: t from left to right, values from `least` to `most` upwards.
+struct CurveEditor::Canvas {
+    ImVec2 low;
+    ImVec2 size;
+    double least;
+    double most;
+
+    /// All of the curve, and room to drag it further.
+    explicit Canvas(const ShapeFunction& phi)
+        : low(ImGui::GetCursorScreenPos()), size(ImGui::GetContentRegionAvail().x, height), least(-0.3),
+          most(1.15) {
+        constexpr int steps = 200;
+        for (int i = 0; i <= steps; ++i) {
+            const double value = 1.1 * phi(static_cast<double>(i) / steps);
+            least = std::min(least, value);
+            most = std::max(most, value);
+        }
+    }
+
+    ImVec2 place(double t, double value) const {
+        return {low.x + static_cast<float>(t) * size.x,
+                low.y + size.y * static_cast<float>((most - value) / (most - least))};
+    }
+    ImVec2 place(const Knot& knot) const { return place(knot.t, knot.value); }
+    double t_at(float x) const { return (x - low.x) / size.x; }
+    double value_at(float y) const { return most - (y - low.y) / size.y * (most - least); }
+};
+
+/// The handles of the selected knot's slopes, left and right.
+struct CurveEditor::Slopes {
+    std::array<ImVec2, 2> ends;
+    std::array<bool, 2> has;
+
+    Slopes(const Canvas& canvas, const ShapeChoice& shape, const ShapeFunction& phi, size_t selected)
+        : has{selected > 0, selected + 1 < shape.knots.size()} {
+        const Knot& knot = shape.knots[selected];
+        const double left = slope_of(knot.left, phi, knot.t, -1);
+        const double right = slope_of(knot.right, phi, knot.t, 1);
+        ends[0] = canvas.place(knot.t - slope_reach, knot.value - slope_reach * left);
+        ends[1] = canvas.place(knot.t + slope_reach, knot.value + slope_reach * right);
+    }
+
+    bool under_mouse(size_t side) const {
+        return has[side] && apart(ImGui::GetIO().MousePos, ends[side]) < grab_pixels;
+    }
+};
+
+void CurveEditor::draw(const Canvas& canvas, const ShapeChoice& shape, const Slopes& slopes) const {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(canvas.low, ImVec2(canvas.low.x + canvas.size.x, canvas.low.y + canvas.size.y), ground,
                        3);
     for (const double value : {0.0, 1.0}) {
         list.AddLine(canvas.place(0, value), canvas.place(1, value), line_colour);
     }
+    const ShapeFunction phi = make_shape_function(shape);
     constexpr size_t steps = 120;
     std::array<ImVec2, steps + 1> points;
     for (size_t i = 0; i <= steps; ++i) {
@@ -69,86 +91,83 @@ void draw_curve(const Canvas& canvas, const ShapeFunction& phi) {
         points[i] = canvas.place(t, phi(t));
     }
     list.AddPolyline(points.data(), static_cast<int>(points.size()), curve_colour, 0, 2);
+    for (size_t side = 0; side < 2; ++side) {
+        if (slopes.has[side]) {
+            list.AddLine(canvas.place(shape.knots[selected_]), slopes.ends[side], slope_colour);
+            list.AddCircleFilled(slopes.ends[side], 3.5F, slope_colour);
+        }
+    }
+    for (size_t i = 0; i < shape.knots.size(); ++i) {
+        list.AddCircleFilled(canvas.place(shape.knots[i]), i == selected_ ? 5.0F : 4.0F, knot_colour);
+    }
 }
 
-} // namespace
+std::optional<size_t> CurveEditor::knot_under_mouse(const Canvas& canvas, const ShapeChoice& shape) const {
+    for (size_t i = 0; i < shape.knots.size(); ++i) {
+        if (apart(ImGui::GetIO().MousePos, canvas.place(shape.knots[i])) < grab_pixels) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+/// Buttons that went down in this frame.
+bool CurveEditor::click(const Canvas& canvas, const Slopes& slopes, ShapeChoice& shape) {
+    if (!ImGui::IsItemHovered()) {
+        return false;
+    }
+    const auto found = knot_under_mouse(canvas, shape);
+    if (ImGui::IsMouseDoubleClicked(0) && !found) {
+        selected_ = add_knot(shape, canvas.t_at(ImGui::GetIO().MousePos.x));
+        return true;
+    }
+    if (ImGui::IsMouseClicked(0)) {
+        dragged_ = found                   ? Part::knot
+                   : slopes.under_mouse(0) ? Part::left
+                   : slopes.under_mouse(1) ? Part::right
+                                           : Part::none;
+        selected_ = found.value_or(selected_);
+    }
+    return ImGui::IsMouseClicked(1) && found && remove_knot(shape, *found);
+}
+
+/// To where the mouse is.
+bool CurveEditor::drag(const Canvas& canvas, ShapeChoice& shape) const {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (dragged_ == Part::none || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) {
+        return false;
+    }
+    const double t = canvas.t_at(io.MousePos.x);
+    const double value = canvas.value_at(io.MousePos.y);
+    if (dragged_ == Part::knot) {
+        move_knot(shape, selected_, t, value, most_value_);
+        return true;
+    }
+    Knot& knot = shape.knots[selected_];
+    const bool left = dragged_ == Part::left;
+    const double run = left ? std::min(t - knot.t, -1e-3) : std::max(t - knot.t, 1e-3);
+    turn_slope(knot, left, std::clamp((value - knot.value) / run, -most_slope, most_slope), io.KeyAlt);
+    return true;
+}
 
 bool CurveEditor::show(ShapeChoice& shape) {
     ShapeChoice own = with_own_knots(shape);
     const ShapeFunction phi = make_shape_function(own);
-    const Canvas canvas = canvas_for(phi);
+    const Canvas canvas(phi);
     ImGui::InvisibleButton("curve", canvas.size);
-    draw_curve(canvas, phi);
     selected_ = std::min(selected_, own.knots.size() - 1);
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    const ImVec2 mouse = ImGui::GetIO().MousePos;
-    const Knot& chosen = own.knots[selected_];
-    const std::array<double, 2> slopes{slope_of(chosen.left, phi, chosen.t, -1),
-                                       slope_of(chosen.right, phi, chosen.t, 1)};
-    const std::array<ImVec2, 2> ends{
-        canvas.place(chosen.t - slope_reach, chosen.value - slope_reach * slopes[0]),
-        canvas.place(chosen.t + slope_reach, chosen.value + slope_reach * slopes[1])};
-    const std::array<bool, 2> has{selected_ > 0, selected_ + 1 < own.knots.size()};
-    for (size_t side = 0; side < 2; ++side) {
-        if (has[side]) {
-            list.AddLine(canvas.place(chosen.t, chosen.value), ends[side], slope_colour);
-            list.AddCircleFilled(ends[side], 3.5F, slope_colour);
-        }
-    }
-    for (size_t i = 0; i < own.knots.size(); ++i) {
-        list.AddCircleFilled(canvas.place(own.knots[i].t, own.knots[i].value), i == selected_ ? 5.0F : 4.0F,
-                             knot_colour);
-    }
-    const auto near = [&]() -> std::optional<size_t> {
-        for (size_t i = 0; i < own.knots.size(); ++i) {
-            if (apart(mouse, canvas.place(own.knots[i].t, own.knots[i].value)) < grab_pixels) {
-                return i;
-            }
-        }
-        return std::nullopt;
-    };
-    bool changed = false;
-    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0) && !near()) {
-        selected_ = add_knot(own, canvas.t_at(mouse.x));
-        changed = true;
-    } else if (ImGui::IsItemClicked(0)) {
-        const auto found = near();
-        dragged_ = found                                           ? Part::knot
-                   : has[0] && apart(mouse, ends[0]) < grab_pixels ? Part::left
-                   : has[1] && apart(mouse, ends[1]) < grab_pixels ? Part::right
-                                                                   : Part::none;
-        selected_ = found.value_or(selected_);
-    } else if (ImGui::IsItemHovered() && ImGui::IsMouseClicked(1)) {
-        const auto found = near();
-        changed = found && remove_knot(own, *found);
-    }
+    const Slopes slopes(canvas, own, phi, selected_);
+    draw(canvas, own, slopes);
+    bool changed = click(canvas, slopes, own);
     if (!ImGui::IsMouseDown(0)) {
         dragged_ = Part::none;
-    } else if (dragged_ != Part::none &&
-               (ImGui::GetIO().MouseDelta.x != 0 || ImGui::GetIO().MouseDelta.y != 0)) {
-        const double t = canvas.t_at(mouse.x);
-        const double value = canvas.value_at(mouse.y);
-        Knot& knot = own.knots[selected_];
-        if (dragged_ == Part::knot) {
-            move_knot(own, selected_, t, value);
-        } else {
-            const double run =
-                dragged_ == Part::left ? std::min(t - knot.t, -1e-3) : std::max(t - knot.t, 1e-3);
-            const double slope = std::clamp((value - knot.value) / run, -most_slope, most_slope);
-            const bool kink = ImGui::GetIO().KeyAlt || (knot.left && knot.right && *knot.left != *knot.right);
-            if (dragged_ == Part::left || !kink) {
-                knot.left = slope;
-            }
-            if (dragged_ == Part::right || !kink) {
-                knot.right = slope;
-            }
-        }
-        changed = true;
+    } else {
+        changed = drag(canvas, own) || changed;
     }
     if (changed) {
         shape = own;
     }
-    return changed;
+    return files_.show(shape) || changed;
 }
 
 } // namespace anvil

@@ -8,7 +8,6 @@ namespace anvil {
 namespace {
 
 constexpr double least_gap = 0.005; ///< of t: what a mouse can tell apart
-constexpr double most_value = 4;
 
 double slope_at(const ShapeFunction& phi, double t) {
     constexpr double step = 1e-6;
@@ -39,7 +38,7 @@ size_t add_knot(ShapeChoice& shape, double t) {
     return static_cast<size_t>(inserted - knots.begin());
 }
 
-void move_knot(ShapeChoice& shape, size_t index, double t, double value) {
+void move_knot(ShapeChoice& shape, size_t index, double t, double value, double most_value) {
     std::vector<Knot>& knots = shape.knots;
     if (index + 1 >= knots.size() || !std::isfinite(t) || !std::isfinite(value)) {
         return; // the last one ends the region: phi is 0 there
@@ -48,6 +47,16 @@ void move_knot(ShapeChoice& shape, size_t index, double t, double value) {
     const double high = index == 0 ? knots[0].t : knots[index + 1].t - least_gap;
     knots[index].t = low <= high ? std::clamp(t, low, high) : knots[index].t;
     knots[index].value = std::clamp(value, -most_value, most_value);
+}
+
+void turn_slope(Knot& knot, bool left, double slope, bool kink) {
+    const bool apart = kink || (knot.left && knot.right && *knot.left != *knot.right);
+    if (left || !apart) {
+        knot.left = slope;
+    }
+    if (!left || !apart) {
+        knot.right = slope;
+    }
 }
 
 bool remove_knot(ShapeChoice& shape, size_t index) {

@@ -1,9 +1,8 @@
 #include "app/viewer/panels/occluder_panel.h"
 
 #include "app/viewer/panels/controls.h"
+#include "app/viewer/panels/occluder_controls.h"
 
-#include <array>
-#include <glm/gtc/type_ptr.hpp>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
@@ -11,73 +10,41 @@ namespace anvil {
 
 namespace {
 
-bool drag_place(Vec3& place, double size) {
-    glm::vec3 narrow(place);
-    if (!ImGui::DragFloat3("place", glm::value_ptr(narrow), static_cast<float>(size) * 0.002F, 0, 0,
-                           "%.4g")) {
-        return false;
-    }
-    for (int axis = 0; axis < 3; ++axis) { // what was not dragged keeps its digits
-        place[axis] = narrow[axis] == static_cast<float>(place[axis]) ? place[axis] : narrow[axis];
-    }
-    return true;
-}
-
-bool drag_number(const char* label, double& value, float speed, float least, float most) {
-    auto narrow = static_cast<float>(value);
-    const bool changed =
-        ImGui::DragFloat(label, &narrow, speed, least, most, "%.4g", ImGuiSliderFlags_AlwaysClamp);
-    value = changed ? narrow : value;
-    return changed;
-}
-
-bool edit_transform(Transform& transform, double size) {
-    bool changed = drag_place(transform.translate, size);
-    changed = drag_number("degrees", transform.degrees, 0.5F, -360, 360) || changed;
-    int axis = transform.axis == Vec3(1, 0, 0) ? 0 : transform.axis == Vec3(0, 0, 1) ? 2 : 1;
-    if (ImGui::Combo("about", &axis, "x\0y\0z\0")) {
-        transform.axis = Vec3(0);
-        transform.axis[axis] = 1;
-        changed = true;
-    }
-    return drag_number("scale", transform.scale, 0.005F, 1e-3F, 1e3F) || changed;
-}
-
-bool edit_influence(Influence& influence, double size) {
-    constexpr std::array kinds{InfluenceKind::soft, InfluenceKind::hard, InfluenceKind::paper};
-    if (influence.kind == InfluenceKind::curve) {
-        ImGui::TextUnformatted("influence: its own curve");
-        return false;
-    }
-    int kind = influence.kind == InfluenceKind::soft ? 0 : influence.kind == InfluenceKind::hard ? 1 : 2;
-    bool changed = ImGui::Combo("influence", &kind, "soft\0hard\0as in the paper\0");
-    if (changed) {
-        influence = Influence{};
-        influence.kind = kinds[static_cast<size_t>(kind)];
-    }
-    if (influence.kind == InfluenceKind::soft) {
-        changed = drag_number("strength", influence.strength, 0.005F, 0, 1) || changed;
-        double sigma = influence.sigma.value_or(0);
-        if (drag_number("sigma (0: default)", sigma, static_cast<float>(size) * 5e-4F, 0,
-                        static_cast<float>(size))) {
-            influence.sigma = sigma > 0 ? std::optional(sigma) : std::nullopt;
-            changed = true;
-        }
-    }
-    return changed;
-}
-
-/// What the last edit met.
-void show_contact(const SurfaceVersion& surface) {
-    const std::optional<ContactReport>& contact = surface.report.contact;
-    if (!contact) {
+void show_hammer(Session& session) {
+    ImGui::Checkbox("record motion (hammer)", &session.occluders.records);
+    const auto motions = session.occluders.motions();
+    if (motions.empty()) {
         return;
     }
-    ImGui::Text("in contact: %zu vertices", contact->contact_vertices);
-    ImGui::Text("triangles that dip in: %zu, at most %.4g", contact->penetrating_triangles,
-                contact->deepest_dip);
-    if (contact->started_inside > 0) {
-        ImGui::Text("started inside: %zu vertices", contact->started_inside);
+    for (const auto& [name, motion] : motions) {
+        ImGui::Text("%s: %zu poses", name.c_str(), motion.size());
+    }
+    if (ImGui::Checkbox("only within the radius of the strike", &session.options.near_strike)) {
+        session.options_changed();
+    }
+    if (ImGui::Button("Forget the motion")) {
+        session.drop();
+    }
+}
+
+/// Of what is under way, else of the last edit.
+void show_contacts(const Session& session) {
+    const Shown& shown = session.shown();
+    if (shown.drag && !shown.drag->contact) {
+        ImGui::TextUnformatted("touching: being measured");
+    } else if (shown.drag) {
+        show_live_contact(shown.drag->contact->touching);
+        if (shown.drag->contact->volume) {
+            show_volume((*shown.drag->contact->volume)[0], (*shown.drag->contact->volume)[1]);
+        }
+    } else if (shown.standing) {
+        show_live_contact(*shown.standing);
+    } else {
+        const EditReport& report = shown.document.surface->report;
+        show_contact(report);
+        if (report.volume) {
+            show_volume(report.volume->before, report.volume->after);
+        }
     }
 }
 
@@ -101,7 +68,56 @@ void OccluderPanel::add(Session& session) {
         next.occluders.push_back(
             new_occluder(next, from_file ? file_ : kinds[static_cast<size_t>(shape_)], session.bounds()));
         session.change(next, "new occluder");
+        session.occluders.select(next.occluders.back().name);
     }
+}
+
+void OccluderPanel::show_settings(Session& session, size_t index) {
+    Recipe next = *session.shown().document.recipe;
+    Occluder& occluder = next.occluders[index];
+    const std::string name = occluder.name;
+    const double size = std::max(session.bounds().diagonal(), 1e-30);
+    const bool moved = transform_controls(occluder.transform, size);
+    const bool changed = influence_controls(occluder.influence, size, curve_);
+    if (ImGui::Button("Remove")) {
+        next.occluders.erase(next.occluders.begin() + static_cast<std::ptrdiff_t>(index));
+        session.change(next, "removal of an occluder");
+    } else if (moved || changed) {
+        session.change(next, moved ? "occluder's place" : "occluder's influence", "occluder " + name);
+    }
+}
+
+void OccluderPanel::show_one(Session& session, size_t index) {
+    const std::string name = session.shown().document.recipe->occluders[index].name;
+    ImGui::PushID(static_cast<int>(index));
+    bool on = !session.options.off.contains(name);
+    if (ImGui::Checkbox("##on", &on)) {
+        if (on) {
+            session.options.off.erase(name);
+        } else {
+            session.options.off.insert(name);
+        }
+        session.options_changed();
+    }
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("on: the edit under way and the next ones go around it");
+    }
+    ImGui::SameLine();
+    const bool selected = session.occluders.selected() == name;
+    if (selected != (opened_ == name)) { // selected in the scene, or no more
+        ImGui::SetNextItemOpen(selected);
+        opened_ = selected ? name : "";
+    }
+    const bool open = ImGui::TreeNodeEx(name.c_str(), selected ? ImGuiTreeNodeFlags_Selected : 0);
+    if (ImGui::IsItemClicked()) {
+        session.occluders.select(name);
+        opened_ = name; // the click itself has opened or closed it
+    }
+    if (open) {
+        show_settings(session, index);
+        ImGui::TreePop();
+    }
+    ImGui::PopID();
 }
 
 void OccluderPanel::show(Session& session) {
@@ -109,32 +125,24 @@ void OccluderPanel::show(Session& session) {
         return;
     }
     const ImVec2 window = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos(ImVec2(window.x - side_width - 8, 0.55F * window.y), ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSizeConstraints(ImVec2(side_width, 0), ImVec2(side_width, window.y));
+    ImGui::SetNextWindowPos(ImVec2(window.x - side_width - 8, 0.47F * window.y), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSizeConstraints(ImVec2(side_width, 0), ImVec2(side_width, 0.46F * window.y));
     ImGui::Begin("Occluders", nullptr, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::PushItemWidth(-110);
     add(session);
-    const double size = std::max(session.bounds().diagonal(), 1e-30);
-    const Recipe& recipe = *session.shown().document.recipe;
-    for (size_t i = 0; i < recipe.occluders.size(); ++i) {
-        ImGui::PushID(static_cast<int>(i));
-        if (ImGui::TreeNode(recipe.occluders[i].name.c_str())) {
-            Recipe next = recipe;
-            Occluder& occluder = next.occluders[i];
-            const bool moved = edit_transform(occluder.transform, size);
-            const bool changed = edit_influence(occluder.influence, size);
-            if (ImGui::Button("Remove")) {
-                next.occluders.erase(next.occluders.begin() + static_cast<std::ptrdiff_t>(i));
-                session.change(next, "removal of an occluder");
-            } else if (moved || changed) {
-                session.change(next, moved ? "occluder's place" : "occluder's influence",
-                               "occluder " + occluder.name);
-            }
-            ImGui::TreePop();
-        }
-        ImGui::PopID();
+    const size_t count = session.shown().document.recipe->occluders.size();
+    if (count > 0) {
+        show_contacts(session);
     }
-    show_contact(*session.shown().document.surface);
+    for (size_t i = 0; i < count; ++i) {
+        show_one(session, i);
+    }
+    if (count > 0) {
+        show_hammer(session);
+        if (dilation_controls(session.options.dilation, std::max(session.bounds().diagonal(), 1e-30))) {
+            session.options_changed();
+        }
+    }
     ImGui::PopItemWidth();
     ImGui::End();
 }

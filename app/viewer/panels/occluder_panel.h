@@ -1,6 +1,7 @@
 // The anvil's panel: which occluders there are, where they stand and how they act.
 #pragma once
 
+#include "app/viewer/panels/curve_editor.h"
 #include "app/viewer/session.h"
 
 namespace anvil {
@@ -12,9 +13,13 @@ class OccluderPanel {
 
   private:
     void add(Session& session);
+    void show_one(Session& session, size_t index);
+    void show_settings(Session& session, size_t index);
 
     int shape_ = 0;
     std::string file_;
+    std::string opened_;   ///< the occluder that was last selected by its entry, or opened since it was
+    CurveEditor curve_{1}; ///< of the selected one's influence: formats allow no more
 };
 
 /// A new occluder beside the mesh, named after its shape and unlike all others: a tenth of the mesh's size

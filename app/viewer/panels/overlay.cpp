@@ -1,5 +1,6 @@
 #include "app/viewer/panels/overlay.h"
 
+#include "app/viewer/panels/gizmo_overlay.h"
 #include "app/viewer/panels/line_marks.h"
 #include "app/viewer/panels/selection_marks.h"
 
@@ -77,6 +78,7 @@ class Marks {
 } // namespace
 
 void draw_overlay(const Session& session) {
+    draw_contact(session);
     const Editor& editor = session.editor;
     Marks marks(session.camera);
     if (editor.hover() && !editor.dragging()) {
@@ -112,6 +114,7 @@ void draw_overlay(const Session& session) {
     for (const PickedPlace& pin : editor.pins()) {
         marks.square(pin.position, 4, pin_colour);
     }
+    draw_gizmo(session);
 }
 
 } // namespace anvil

@@ -21,7 +21,7 @@ void show_status(Session& session, const FrameTimes& times) {
     ImGui::Begin("status", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoFocusOnAppearing);
-    ImGui::TextUnformatted(session.editor.hint().c_str());
+    ImGui::TextUnformatted(session.hint().c_str());
     const Shown& shown = session.shown();
     std::string line = "nothing is open: File, Open, or drop a file here";
     if (shown.mesh) {

@@ -1,0 +1,21 @@
+// What an edit is made with beside its handles: how occluders act in it.
+#pragma once
+
+#include "engine/edit/recipe.h"
+
+#include <set>
+#include <string>
+
+namespace anvil {
+
+/// The same for the edit under way and the next ones until it is changed. Edits that were taken have what
+/// they were taken with.
+struct EditOptions {
+    std::optional<Dilation> dilation;
+    /// Occluders that are switched off: the recipe keeps them, the edit names the others alone.
+    std::set<std::string> off;
+    /// A hammer without handles acts within the radius around the place it strikes, not on the whole mesh.
+    bool near_strike = false;
+};
+
+} // namespace anvil

@@ -1,0 +1,156 @@
+#include "app/viewer/panels/gizmo_overlay.h"
+
+#include <array>
+#include <imgui.h>
+
+namespace anvil {
+
+namespace {
+
+constexpr ImU32 outline = IM_COL32(20, 20, 24, 200);
+constexpr ImU32 neutral = IM_COL32(225, 225, 230, 255);
+constexpr ImU32 hot_colour = IM_COL32(255, 214, 64, 255);
+/// Told apart by people who do not see red and green apart: vermilion, bluish green, sky blue.
+constexpr std::array<ImU32, 3> axis_colours{IM_COL32(226, 98, 38, 255), IM_COL32(20, 176, 130, 255),
+                                            IM_COL32(92, 178, 240, 255)};
+constexpr ImU32 touching_colour = IM_COL32(235, 60, 110, 110);
+constexpr ImU32 touching_vertex = IM_COL32(255, 90, 140, 230);
+constexpr ImU32 deepest_colour = IM_COL32(255, 255, 255, 255);
+constexpr ImU32 way_colour = IM_COL32(255, 214, 64, 220);
+
+ImVec2 narrow(const glm::dvec2& place) {
+    return {static_cast<float>(place.x), static_cast<float>(place.y)};
+}
+
+ImU32 colour_of(const GizmoPart& part) {
+    const bool has_axis = part.action == GizmoAction::move || part.action == GizmoAction::across ||
+                          part.action == GizmoAction::turn;
+    return has_axis ? axis_colours[static_cast<size_t>(part.axis)] : neutral;
+}
+
+ImU32 with_alpha(ImU32 colour, ImU32 alpha) {
+    return (colour & ~IM_COL32_A_MASK) | (alpha << IM_COL32_A_SHIFT);
+}
+
+/// The head of an arrow from a to b.
+void draw_tip(ImDrawList& list, const ImVec2& a, const ImVec2& b, ImU32 colour) {
+    const glm::vec2 way(b.x - a.x, b.y - a.y);
+    const float length = glm::length(way);
+    if (length < 1) {
+        return;
+    }
+    const glm::vec2 along = way / length;
+    const glm::vec2 across(-along.y, along.x);
+    const glm::vec2 tip = glm::vec2(b.x, b.y) + 7.0F * along;
+    const glm::vec2 left = glm::vec2(b.x, b.y) - 5.0F * along + 5.0F * across;
+    const glm::vec2 right = glm::vec2(b.x, b.y) - 5.0F * along - 5.0F * across;
+    list.AddTriangleFilled({tip.x, tip.y}, {left.x, left.y}, {right.x, right.y}, colour);
+}
+
+void draw_mark(ImDrawList& list, const GizmoMark& mark, bool hot) {
+    std::vector<ImVec2> line;
+    for (const glm::dvec2& place : mark.line) {
+        line.push_back(narrow(place));
+    }
+    const auto count = static_cast<int>(line.size());
+    if (count < 2) {
+        return;
+    }
+    const ImU32 colour = hot ? hot_colour : colour_of(mark.part);
+    if (mark.filled) {
+        list.AddConvexPolyFilled(line.data(), count, with_alpha(colour, 150));
+        list.AddPolyline(line.data(), count, colour, ImDrawFlags_Closed, 1.5F);
+        return;
+    }
+    list.AddPolyline(line.data(), count, outline, 0, hot ? 5.5F : 4.0F);
+    list.AddPolyline(line.data(), count, colour, 0, hot ? 3.5F : 2.0F);
+    if (mark.part.action == GizmoAction::move) {
+        draw_tip(list, line.front(), line.back(), colour);
+    }
+}
+
+std::optional<ImVec2> window_place(const OrbitCamera& camera, const Vec3& place) {
+    const ScreenPoint at = camera.project(place);
+    return at.visible() ? std::optional(ImVec2(static_cast<float>(at.x), static_cast<float>(at.y)))
+                        : std::nullopt;
+}
+
+void draw_ways(ImDrawList& list, const Session& session) {
+    for (const auto& [name, poses] : session.occluders.samples()) {
+        const OccluderView* occluder = nullptr;
+        for (const OccluderView& view : session.shown().occluders) {
+            occluder = view.name == name ? &view : occluder;
+        }
+        if (occluder == nullptr) {
+            continue;
+        }
+        std::optional<ImVec2> before;
+        for (const Transform& pose : poses) {
+            const auto at = window_place(session.camera, placed_point(pose, occluder->pivot));
+            if (at && before) {
+                list.AddLine(*before, *at, outline, 4);
+                list.AddLine(*before, *at, way_colour, 2);
+            }
+            before = at;
+        }
+    }
+}
+
+/// What of the scene touches now, of the drag or of the surface as it stands.
+const LiveContact* contact_of(const Shown& shown) {
+    if (shown.drag) {
+        return shown.drag->contact ? &shown.drag->contact->touching : nullptr;
+    }
+    return shown.standing ? &*shown.standing : nullptr;
+}
+
+} // namespace
+
+void draw_contact(const Session& session) {
+    const LiveContact* contact = contact_of(session.shown());
+    if (contact == nullptr || !session.view.occluders) {
+        return;
+    }
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const OrbitCamera& camera = session.camera;
+    for (const auto& facet : contact->facets) {
+        const auto a = window_place(camera, facet[0]);
+        const auto b = window_place(camera, facet[1]);
+        const auto c = window_place(camera, facet[2]);
+        const bool faces_eye =
+            glm::dot(glm::cross(facet[1] - facet[0], facet[2] - facet[0]), facet[0] - camera.eye()) < 0;
+        if (a && b && c && faces_eye) {
+            list.AddTriangleFilled(*a, *b, *c, touching_colour);
+        }
+    }
+    for (const Vec3& mark : contact->marks) {
+        if (const auto at = window_place(camera, mark)) {
+            list.AddRectFilled({at->x - 1, at->y - 1}, {at->x + 1, at->y + 1}, touching_vertex);
+        }
+    }
+    if (contact->vertex) {
+        if (const auto at = window_place(camera, contact->vertex->position)) {
+            list.AddCircle(*at, 6, outline, 0, 4);
+            list.AddCircle(*at, 6, deepest_colour, 0, 2);
+        }
+    }
+    if (contact->triangle) {
+        if (const auto at = window_place(camera, contact->triangle->position)) {
+            list.AddNgon(*at, 8, outline, 3, 4);
+            list.AddNgon(*at, 8, deepest_colour, 3, 2);
+        }
+    }
+}
+
+void draw_gizmo(const Session& session) {
+    if (!session.view.occluders) {
+        return;
+    }
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    draw_ways(list, session);
+    for (const GizmoMark& mark : session.occluders.marks(session.camera, session.shown().occluders)) {
+        draw_mark(list, mark, mark.part == session.occluders.hot());
+    }
+}
+
+} // namespace anvil
