@@ -200,7 +200,7 @@ void ScriptPlayer::expect(const ScriptLine& line, Session& session) const {
                 : with[0] == "unsaved"   ? (shown.document.unsaved ? "yes" : "no")
                 : with[0] == "device"    ? shown.device
                 : with[0] == "touching"  ? touching_of(shown)
-                : with[0] == "selected"  ? session.occluders.selected()
+                : with[0] == "gizmo"     ? session.occluders.selected()
                                          : "nothing of that name";
     }
     if (found != with[1]) {
