@@ -26,6 +26,8 @@ struct DrawnIndices {
     uint32_t line_indices = 0;
 };
 
+struct DrawnRegion;
+
 /// On the device: made once, then only drawn. From any thread.
 struct DrawnMesh {
     /// `places` (world) of the mesh's vertices; drawn relative to `centre`, and what is not finite with
@@ -39,6 +41,7 @@ struct DrawnMesh {
     Buffer normals;
     DrawnIndices indices;
     Buffer slots; ///< a number per vertex, see shaders/viewer/mesh.vert; empty where not editable
+    std::shared_ptr<const DrawnRegion> numbered; ///< whose slots are filled: for who draws, alone
 };
 
 /// Each vertex's weight in an edit (largest |phi| of its handles) and its distance from the nearest.

@@ -42,9 +42,10 @@ Painter::Canvas& Painter::canvas(bool fine) {
     if (!canvas) {
         const TargetFormat format{scene_format(swapchain_.format()), RenderTarget::depth_format(device_),
                                   samples};
-        canvas.emplace(Canvas{format, ScenePass(device_, format), std::nullopt, {}});
+        canvas.emplace(Canvas{format, ScenePass(device_, format), std::nullopt, {}, {}});
     }
     if (!canvas->target || canvas->size != swapchain_.size()) {
+        canvas->shown.reset();
         canvas->size = swapchain_.size();
         canvas->target.emplace(device_, static_cast<uint32_t>(canvas->size.width),
                                static_cast<uint32_t>(canvas->size.height), samples, canvas->format.colour);
@@ -59,21 +60,33 @@ bool Painter::paint(const Scene& scene, const ImDrawData& panels, bool fine) {
         return false;
     }
     Canvas& drawn_to = canvas(fine);
-    drawn_to.pass.prepare(scene);
-    drawn_ = scene.items;
+    // While only panels and marks change, the surface is not drawn again.
+    const bool drawn = drawn_to.shown == scene;
+    if (!drawn) {
+        drawn_to.pass.prepare(scene);
+        for (std::optional<Canvas>* other :
+             {&plain_, &fine_}) { // one scene is kept from being freed, not two
+            if (*other) {
+                (*other)->shown.reset();
+            }
+        }
+        drawn_to.shown = scene;
+    }
     const vk::raii::CommandBuffer& commands = commands_.begin();
-    guarded("drawing", [&] { record(commands, drawn_to, *image, scene, panels); });
+    guarded("drawing", [&] { record(commands, drawn_to, *image, drawn, panels); });
     commands_.submit(at_all_stages(swapchain_.acquired()), at_all_stages(swapchain_.drawn(*image)));
     swapchain_.show(*image);
     return true;
 }
 
 void Painter::record(const vk::raii::CommandBuffer& commands, Canvas& canvas, const WindowImage& image,
-                     const Scene& scene, const ImDrawData& panels) {
+                     bool drawn, const ImDrawData& panels) {
     full_barrier(commands); // the places that a drag has submitted
-    canvas.target->begin(commands);
-    canvas.pass.record(commands, scene);
-    canvas.target->end(commands);
+    if (!drawn) {
+        canvas.target->begin(commands);
+        canvas.pass.record(commands, *canvas.shown);
+        canvas.target->end(commands);
+    }
     const vk::Extent2D extent{static_cast<uint32_t>(canvas.size.width),
                               static_cast<uint32_t>(canvas.size.height)};
     const vk::ImageSubresourceLayers layer{.aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1};

@@ -35,11 +35,13 @@ class Painter {
         ScenePass pass;
         std::optional<RenderTarget> target;
         WindowSize size;
+        std::optional<Scene> shown; ///< what the target holds; nothing: it is to be drawn
     };
 
     Canvas& canvas(bool fine);
-    void record(const vk::raii::CommandBuffer& commands, Canvas& canvas, const WindowImage& image,
-                const Scene& scene, const ImDrawData& panels);
+    /// `drawn`: the target holds the scene already.
+    void record(const vk::raii::CommandBuffer& commands, Canvas& canvas, const WindowImage& image, bool drawn,
+                const ImDrawData& panels);
     void keep_picture(const vk::raii::CommandBuffer& commands, const WindowImage& image);
 
     DeviceState& device_;
@@ -47,8 +49,7 @@ class Painter {
     UiPass ui_;
     std::optional<Canvas> plain_;
     std::optional<Canvas> fine_;
-    std::vector<SceneItem> drawn_; ///< what the frame under way reads
-    Buffer pixels_;                ///< the last frame
+    Buffer pixels_; ///< the last frame
     WindowSize pixels_size_;
     Commands commands_;
 };

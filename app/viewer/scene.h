@@ -30,12 +30,16 @@ struct SceneItem {
     bool tinted = true;        ///< the region in colours
     bool plain_back = false;   ///< back faces look as front faces do
     float contour_spacing = 0; ///< world; 0: no lines
+
+    bool operator==(const SceneItem&) const = default;
 };
 
 struct Scene {
     std::vector<SceneItem> items;
     glm::mat4 projection{1};
     bool orthographic = false;
+
+    bool operator==(const Scene&) const = default;
 };
 
 } // namespace anvil

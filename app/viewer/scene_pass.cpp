@@ -84,36 +84,32 @@ ScenePass::ScenePass(DeviceState& device, const TargetFormat& target)
     });
 }
 
-void ScenePass::number_region(const SceneItem& item) {
-    if (numbered_mesh_.lock() == item.mesh && numbered_region_ == item.region) {
+void ScenePass::number_region(DrawnMesh& mesh, const std::shared_ptr<const DrawnRegion>& region) {
+    if (mesh.numbered == region) {
         return;
     }
-    const auto write = [](Buffer& slots, const DrawnRegion& region, bool clear) {
-        for (uint32_t i = 0; i < region.vertices.size(); ++i) {
+    const auto write = [&](const DrawnRegion& numbered, bool clear) {
+        for (uint32_t i = 0; i < numbered.vertices.size(); ++i) {
             const uint32_t slot = clear ? no_index : i;
-            slots.write(region.vertices[i] * sizeof(uint32_t), std::as_bytes(std::span(&slot, 1)));
+            mesh.slots.write(numbered.vertices[i] * sizeof(uint32_t), std::as_bytes(std::span(&slot, 1)));
         }
     };
-    const std::shared_ptr<DrawnMesh> before = numbered_mesh_.lock();
-    const bool same_vertices = before == item.mesh && numbered_region_ && item.region &&
-                               numbered_region_->vertices == item.region->vertices;
-    if (!same_vertices) {
-        if (before && numbered_region_) {
-            write(before->slots, *numbered_region_, true);
+    if (!mesh.numbered || !region || mesh.numbered->vertices != region->vertices) {
+        if (mesh.numbered) {
+            write(*mesh.numbered, true);
         }
-        if (item.region) {
-            write(item.mesh->slots, *item.region, false);
+        if (region) {
+            write(*region, false);
         }
     }
-    numbered_mesh_ = item.mesh;
-    numbered_region_ = item.region;
+    mesh.numbered = region;
 }
 
 void ScenePass::prepare(const Scene& scene) {
     camera_.write_all(std::span<const glm::mat4>(&scene.projection, 1));
     for (const SceneItem& item : scene.items) {
         if (item.mesh->slots.size() > 0) {
-            number_region(item);
+            number_region(*item.mesh, item.region);
         }
     }
 }

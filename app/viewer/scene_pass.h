@@ -27,7 +27,7 @@ class ScenePass {
     void draw(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& pipeline,
               const SceneItem& item, const Scene& scene, bool lines) const;
     void bind(const vk::raii::CommandBuffer& commands, const SceneItem& item) const;
-    void number_region(const SceneItem& item);
+    static void number_region(DrawnMesh& mesh, const std::shared_ptr<const DrawnRegion>& region);
 
     DeviceState& device_;
     Buffer camera_;  ///< the projection
@@ -40,8 +40,6 @@ class ScenePass {
     vk::raii::Pipeline lines_{nullptr};
     vk::raii::Pipeline translucent_back_{nullptr};
     vk::raii::Pipeline translucent_front_{nullptr};
-    std::weak_ptr<DrawnMesh> numbered_mesh_;             ///< the one whose slots are not all empty
-    std::shared_ptr<const DrawnRegion> numbered_region_; ///< and whose they are
 };
 
 } // namespace anvil

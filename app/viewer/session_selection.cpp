@@ -69,6 +69,7 @@ void Session::frame_selection() {
         vertices = shown_->region->vertices;
     }
     std::vector<Vec3> points;
+    points.reserve(vertices.size());
     for (const uint32_t v : vertices) {
         points.push_back(positions[v]);
     }
