@@ -2,7 +2,8 @@
 // need is compiled out: drivers inline everything, and lavapipe runs both sides of every branch. With FEW_OCCLUDERS
 // the variant knows their number and kinds, so that loops unroll and occluders stay in registers. With
 // FIELD_WINDOWS, distances come from uniform buffers, as many points a dispatch as these hold: lavapipe reads
-// those ten times as fast as storage buffers.
+// those ten times as fast as storage buffers. With WIDE_STORES, which knows no occluders, two points are stored
+// at once as three integers of 64 bits: lavapipe stores number by number, lane by lane.
 
 layout(local_size_x = 64) in; // deform_workgroup in engine/gpu/deform_pipeline.h
 
@@ -65,6 +66,11 @@ layout(binding = 25, scalar) uniform FieldWindow4 { float field_window_4[field_w
 layout(binding = 26, scalar) uniform FieldWindow5 { float field_window_5[field_window_floats]; };
 layout(binding = 27, scalar) uniform FieldWindow6 { float field_window_6[field_window_floats]; };
 layout(binding = 28, scalar) uniform FieldWindow7 { float field_window_7[field_window_floats]; };
+#endif
+
+#ifdef WIDE_STORES
+layout(binding = 8, scalar) writeonly buffer DisplacementPairs { u64vec3 displacement_pairs[]; };
+layout(binding = 19, scalar) writeonly buffer EndPairs { u64vec3 end_pairs[]; };
 #endif
 
 // DeformVariant of engine/gpu/deform_pipeline.h, in this order.
@@ -170,6 +176,7 @@ float handle_weight(uint j, float t) {
 
 #include "shared/path.h"
 #include "shared/contact.h"
+#include "shared/course.h"
 #include "shared/looks.h"
 #include "shared/walk.h"
 
@@ -209,21 +216,85 @@ void prepare() {
 #endif
 }
 
+void write_result(uint i, VertexResult result) {
+    displacements[i] = result.displacement;
+    if (has_occluders != 0u) {
+        counts[i] = uvec3(result.steps, result.samples, result.flags);
+    }
+    if (writes_ends != 0u) {
+        ends[i] = points[i] + result.displacement;
+    }
+}
+
+#ifdef WIDE_STORES
+
+u64vec3 pair_of(vec3 a, vec3 b) {
+    uvec3 x = floatBitsToUint(a);
+    uvec3 y = floatBitsToUint(b);
+    return u64vec3(pack64(x.xy), pack64(uvec2(x.z, y.x)), pack64(y.yz));
+}
+
+vec3 displacement_of(uint i) {
+    VertexResult result;
+    unhindered(i, result);
+    return result.displacement;
+}
+
+/// Points i and i + 1, i even.
+void work_pair(uint i) {
+    vec3 a = displacement_of(i);
+    vec3 b = displacement_of(i + 1u);
+    displacement_pairs[i / 2u] = pair_of(a, b);
+    if (writes_ends != 0u) {
+        end_pairs[i / 2u] = pair_of(points[i] + a, points[i + 1u] + b);
+    }
+}
+
+void main() {
+    prepare();
+    uint lane = gl_LocalInvocationID.x;
+    uint first = (invocation_index() - lane) * points_each + 2u * lane;
+    for (uint p = 0u; p < points_each; p += 2u) {
+        uint i = first + p * gl_WorkGroupSize.x;
+        if (i + 1u < params.point_count) {
+            work_pair(i);
+        }
+    }
+    uint last = params.point_count - 1u; // without a partner where the count is odd
+    uint past = last - first;
+    if (last % 2u == 0u && last >= first && past % (2u * gl_WorkGroupSize.x) == 0u &&
+        past < points_each * gl_WorkGroupSize.x) {
+        VertexResult result;
+        unhindered(last, result);
+        write_result(last, result);
+    }
+}
+
+#else
+
+/// First what no occluder can act on, then the others of all points together: devices that work invocations side
+/// by side go through a walk where a single one of them has to, lavapipe even where none has.
 void main() {
     prepare();
     uint lane = gl_LocalInvocationID.x;
     uint first = (invocation_index() - lane) * points_each + lane;
+    uint waiting = 0u; // bit p: of the p-th point
     for (uint p = 0u; p < points_each; ++p) {
         uint i = first + p * gl_WorkGroupSize.x;
         if (i < params.point_count) {
-            VertexResult result = deformed(i);
-            displacements[i] = result.displacement;
-            if (has_occluders != 0u) {
-                counts[i] = uvec3(result.steps, result.samples, result.flags);
-            }
-            if (writes_ends != 0u) {
-                ends[i] = points[i] + result.displacement;
+            VertexResult result;
+            if (unhindered(i, result)) {
+                write_result(i, result);
+            } else {
+                waiting |= 1u << p;
             }
         }
     }
+    while (has_occluders != 0u && waiting != 0u) {
+        uint i = first + uint(findLSB(waiting)) * gl_WorkGroupSize.x;
+        waiting &= waiting - 1u;
+        write_result(i, hindered(i));
+    }
 }
+
+#endif

@@ -16,10 +16,7 @@ CpuKernel::CpuKernel(const DeformInput& input, const DeformMotion& motion)
     kernel_.shapes = table_.shapes.data();
     kernel_.targets = motion.targets.data();
     kernel_.poses = poses_.data();
-    if (input.start_distances.empty()) {
-        far_.assign(input.points.size(), infinity);
-    }
-    kernel_.start_distances = input.start_distances.empty() ? far_.data() : input.start_distances.data();
+    kernel_.start_distances = input.start_distances.data();
 }
 
 } // namespace anvil

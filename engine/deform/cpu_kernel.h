@@ -24,7 +24,6 @@ class CpuKernel {
   private:
     SegmentTable table_;
     std::vector<kernel::f64::Pose> poses_;
-    std::vector<double> far_; ///< start distances where the input has none
     kernel::f64::DeformKernel kernel_;
 };
 

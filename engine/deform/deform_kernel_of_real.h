@@ -26,6 +26,8 @@ struct DeformKernel : OccluderKernel {
 
 #include "shaders/shared/contact.h"
 
+#include "shaders/shared/course.h"
+
 #include "shaders/shared/walk.h"
     // NOLINTEND
 };

@@ -8,7 +8,7 @@ namespace anvil {
 static_assert(sizeof(kernel::f32::ShapeSegment) == 20);
 static_assert(sizeof(kernel::f32::CurveRange) == 8);
 static_assert(sizeof(kernel::f32::ShapeNode) == 80 && offsetof(kernel::f32::ShapeNode, scale) == 76);
-static_assert(sizeof(kernel::f32::Occluder) == 92 && offsetof(kernel::f32::Occluder, curve) == 84);
+static_assert(sizeof(kernel::f32::Occluder) == 120 && offsetof(kernel::f32::Occluder, box_half) == 108);
 static_assert(sizeof(kernel::f32::Pose) == 88 && offsetof(kernel::f32::Pose, at) == 84);
 static_assert(sizeof(kernel::f32::KernelParams) == 68 &&
               offsetof(kernel::f32::KernelParams, path_epsilon) == 64);
@@ -44,10 +44,12 @@ kernel::f32::ShapeNode narrowed(const kernel::f64::ShapeNode& n) {
 }
 
 kernel::f32::Occluder narrowed(const kernel::f64::Occluder& o) {
-    return {narrowed(o.axis_x), narrowed(o.axis_y), narrowed(o.axis_z), narrowed(o.origin),
-            narrowed(o.scale),  o.first_node,       o.node_count,       narrowed(o.margin),
-            narrowed(o.step),   narrowed(o.settle), o.influence,        narrowed(o.strength),
-            narrowed(o.width),  narrowed(o.curve)};
+    return {narrowed(o.axis_x),     narrowed(o.axis_y),  narrowed(o.axis_z),
+            narrowed(o.origin),     narrowed(o.scale),   o.first_node,
+            o.node_count,           narrowed(o.margin),  narrowed(o.step),
+            narrowed(o.settle),     o.influence,         narrowed(o.strength),
+            narrowed(o.width),      narrowed(o.curve),   o.boxed,
+            narrowed(o.box_centre), narrowed(o.box_half)};
 }
 
 kernel::f32::Pose narrowed(const kernel::f64::Pose& p) {

@@ -76,6 +76,7 @@ void Buffer::write(uint64_t offset, std::span<const std::byte> data) {
     if (data.empty()) {
         return;
     }
+    device_->bytes_written += data.size();
     if (mapped_ != nullptr) {
         std::memcpy(mapped_ + offset, data.data(), data.size());
         return;

@@ -6,6 +6,7 @@
 #include "embedded/deform.comp.h"
 #include "embedded/deform_few.comp.h"
 #include "embedded/deform_few_windows.comp.h"
+#include "embedded/deform_wide.comp.h"
 #include "embedded/deform_windows.comp.h"
 
 #include <algorithm>
@@ -20,7 +21,8 @@ constexpr size_t few_occluders = 4;
 constexpr size_t few_nodes = 8;
 constexpr uint32_t most_kept_segments = 16; // unrolled in every place that blends: compiling takes longer
 constexpr uint32_t points_on_cpu = 8;
-constexpr uint32_t blended_on_cpu = 32; // without occluders all points take alike
+constexpr uint32_t most_wide_handles = 8; // with more, two points at once run out of registers
+constexpr uint32_t blended_on_cpu = 32;   // without occluders all points take alike
 
 /// In the order of the shader's bindings.
 std::vector<ResourceKind> deform_resources(bool windows) {
@@ -49,6 +51,9 @@ void keep_handles(const DeformInput& input, DeformVariant& variant) {
 }
 
 std::span<const uint32_t> shader_of(const DeformVariant& variant) {
+    if (variant.wide) {
+        return deform_wide_comp;
+    }
     if (variant.windows) {
         return variant.few ? std::span<const uint32_t>(deform_few_windows_comp)
                            : std::span<const uint32_t>(deform_windows_comp);
@@ -106,6 +111,8 @@ DeformVariant DeformPipeline::fitted(DeformVariant variant) const {
         variant.points_each = variant.occluders != 0 ? points_on_cpu : blended_on_cpu;
         variant.handles_each = variant.kept_handles > 0 ? field_blocks(variant.kept_handles).handles_each : 0;
         variant.windows = variant.handles_each > 0;
+        variant.wide = variant.windows && variant.occluders == 0 && device().wide_integers &&
+                       variant.kept_handles <= most_wide_handles;
     } else {
         variant.kept_handles = 0;
         variant.segments_each = 1;

@@ -50,6 +50,7 @@ struct DeformVariant {
     uint32_t segments_each = 1; ///< of each kept handle's shape
     uint32_t handles_each = 0;  ///< in a window of distances
     bool windows = false;       ///< distances are read from windows (no constant: another shader)
+    bool wide = false;          ///< results are stored two points at once (no constant: another shader)
     bool few = false; ///< up to 4 occluders and 8 nodes: kept in registers (no constant: another shader)
 
     bool operator==(const DeformVariant&) const = default;

@@ -55,11 +55,13 @@ vk::raii::Device make_device(const DeviceState& state, const std::vector<std::st
     const float priority = 1.0F;
     const vk::DeviceQueueCreateInfo queue{
         .queueFamilyIndex = state.queue_family, .queueCount = 1, .pQueuePriorities = &priority};
+    const vk::PhysicalDeviceFeatures features{.shaderInt64 = state.wide_integers ? VK_TRUE : VK_FALSE};
     const vk::StructureChain chain{
         vk::DeviceCreateInfo{.queueCreateInfoCount = 1,
                              .pQueueCreateInfos = &queue,
                              .enabledExtensionCount = static_cast<uint32_t>(names.size()),
-                             .ppEnabledExtensionNames = names.data()},
+                             .ppEnabledExtensionNames = names.data(),
+                             .pEnabledFeatures = &features},
         vk::PhysicalDeviceVulkan12Features{.scalarBlockLayout = VK_TRUE},
         vk::PhysicalDeviceVulkan13Features{.synchronization2 = VK_TRUE, .dynamicRendering = VK_TRUE}};
     return {state.physical, chain.get<vk::DeviceCreateInfo>()};
@@ -95,6 +97,7 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<DeviceSta
         state_->physical = std::move(physical[chosen]);
         state_->queue_family = pick_queue_family(state_->physical);
         require_device_extensions(*state_, options.device_extensions);
+        state_->wide_integers = state_->physical.getFeatures().shaderInt64 == VK_TRUE;
         state_->device = make_device(*state_, options.device_extensions);
         state_->queue = state_->device.getQueue(state_->queue_family, 0);
         finish(*state_);

@@ -34,9 +34,12 @@ struct DeviceState {
     std::mutex queue_mutex; ///< held while the queue is used: several threads may work with one device
     uint32_t queue_family = 0;
     DeviceInfo info;
+    bool wide_integers = false; ///< shaders may have integers of 64 bits
     vk::PhysicalDeviceLimits limits;
     vk::PhysicalDeviceMemoryProperties memory;
     std::atomic<uint64_t> memory_in_use{0}; ///< bytes of buffers and volume textures
+    std::atomic<uint64_t> allocations{0};   ///< of such memory, so far
+    std::atomic<uint64_t> bytes_written{0}; ///< by the host to buffers, so far
 
     DeviceState() = default;
     ~DeviceState();

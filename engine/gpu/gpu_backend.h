@@ -15,9 +15,9 @@ struct GpuBackendOptions {
 };
 
 /// Sessions upload once (float, relative to the input's local origin), submit one command buffer an update,
-/// and allocate nothing in an update whose path has no more samples than an earlier one's. They keep the
-/// device alive. download() throws InternalError if the kernel wrote behind its results.
-/// @throws DeviceError if the device rejects the kernel.
+/// and allocate nothing in an update whose path has no more samples than an earlier one's, nor for shapes and
+/// occluders that are no more than before. They keep the device alive. download() throws InternalError if the
+/// kernel wrote behind its results. @throws DeviceError if the device rejects the kernel.
 std::unique_ptr<Backend> make_gpu_backend(std::shared_ptr<Device> device,
                                           const GpuBackendOptions& options = {});
 

@@ -19,9 +19,29 @@ Buffer narrow_buffer(DeviceState& device, std::span<const Wide> values) {
     return storage_buffer(device, std::span<const typename decltype(narrow)::value_type>(narrow));
 }
 
+/// Writes the values into a buffer, which is made anew where it is too small. @return whether it was.
+template <class Narrow>
+bool refill(DeviceState& device, Buffer& buffer, const std::vector<Narrow>& values) {
+    const std::span<const Narrow> span = values;
+    const bool too_small = buffer.size() < std::max(span.size_bytes(), sizeof(Narrow));
+    if (too_small) {
+        buffer = storage_buffer(device, span, MemoryUse::upload);
+    } else {
+        buffer.write_all(span);
+    }
+    return too_small;
+}
+
 template <class Wide>
-Buffer narrow_buffer(DeviceState& device, const std::vector<Wide>& values) {
-    return narrow_buffer(device, std::span<const Wide>(values));
+bool refill_narrow(DeviceState& device, Buffer& buffer, const std::vector<Wide>& values) {
+    return refill(device, buffer, narrowed(std::span<const Wide>(values)));
+}
+
+template <class Wide, class Narrow>
+void narrow_into(std::vector<Narrow>& narrow, const std::vector<Wide>& values) {
+    narrow.clear();
+    std::transform(values.begin(), values.end(), std::back_inserter(narrow),
+                   [](const Wide& value) { return narrowed(value); });
 }
 
 /// What each point takes in the largest buffer of its chunk.
@@ -119,10 +139,8 @@ GpuSession::GpuSession(std::shared_ptr<DeformPipeline> pipeline, std::shared_ptr
         make_ends();
         normals_.emplace(device, pipeline_->normals_kernel(), input_->fans, ends_, chunk_bytes);
     }
-    poses_ = narrow_buffer(device, std::vector<kernel::f64::Pose>(1));
-    targets_ = storage_buffer(
-        device, std::span<const glm::vec3>(std::vector<glm::vec3>(std::max<size_t>(input_->handle_count, 1))),
-        MemoryUse::upload);
+    refill(device, poses_, std::vector<kernel::f32::Pose>(1));
+    refill(device, targets_, std::vector<glm::vec3>(std::max<size_t>(input_->handle_count, 1)));
     take_shapes();
     take_occluders();
     bind_resources();
@@ -161,43 +179,50 @@ void GpuSession::make_ends() {
     ends_.write(points, std::as_bytes(std::span(narrow)));
 }
 
-void GpuSession::take_shapes() {
+bool GpuSession::take_shapes() {
     const SegmentTable table = segment_table(*input_);
-    shapes_ = narrow_buffer(pipeline_->device(), table.shapes);
-    segments_ = narrow_buffer(pipeline_->device(), table.segments);
+    const bool shapes_grow = refill_narrow(pipeline_->device(), shapes_, table.shapes);
+    const bool segments_grow = refill_narrow(pipeline_->device(), segments_, table.segments);
+    return shapes_grow || segments_grow;
 }
 
-void GpuSession::take_occluders() {
+bool GpuSession::take_occluders() {
     const OccluderSet& set = input_->occluders;
     if (set.volumes.size() > kernel::f32::MAX_VOLUMES) {
         throw InternalError("an edit has more densely sampled fields than the kernel binds");
     }
-    volumes_.clear();
+    DeviceState& device = pipeline_->device();
+    std::vector<std::shared_ptr<const VolumeTexture>> volumes;
     for (const auto& volume : set.volumes) {
-        volumes_.push_back(pipeline_->texture(volume));
+        volumes.push_back(pipeline_->texture(volume));
     }
-    field_words_ = set.field_words ? pipeline_->field_words(set.field_words) : nullptr;
+    auto words = set.field_words ? pipeline_->field_words(set.field_words) : nullptr;
+    bool others = volumes != volumes_ || words != field_words_;
+    volumes_ = std::move(volumes);
+    field_words_ = std::move(words);
     for (Chunk& chunk : chunks_) {
         if (!set.empty() && chunk.counts.size() == 0) {
-            chunk.counts = result_buffer(pipeline_->device(), chunk.count);
+            chunk.counts = result_buffer(device, chunk.count);
+            others = true;
         }
     }
-    occluders_ = narrow_buffer(pipeline_->device(), set.occluders);
-    nodes_ = narrow_buffer(pipeline_->device(), set.nodes);
+    others = refill_narrow(device, occluders_, set.occluders) || others;
+    return refill_narrow(device, nodes_, set.nodes) || others;
 }
 
 void GpuSession::refresh_shapes() {
     check_sizes(*input_, still(input_->handle_count));
     commands_.wait();
-    take_shapes();
-    bind_resources();
+    if (take_shapes()) {
+        bind_resources();
+    }
 }
 
 void GpuSession::refresh_occluders() {
     check_sizes(*input_, still(input_->handle_count));
     commands_.wait();
-    take_shapes(); // influence curves are among the segments
-    take_occluders();
+    const bool shapes_grow = take_shapes(); // influence curves are among the segments
+    const bool others = take_occluders();
     for (Chunk& chunk : chunks_) {
         if (!input_->start_distances.empty()) {
             const std::span<const double> all = input_->start_distances;
@@ -205,7 +230,9 @@ void GpuSession::refresh_occluders() {
             chunk.start_distances.write_all(std::span<const float>(narrow));
         }
     }
-    bind_resources();
+    if (shapes_grow || others) {
+        bind_resources();
+    }
 }
 
 void GpuSession::bind_resources() {
@@ -252,34 +279,25 @@ void GpuSession::bind_resources(const Chunk& chunk, Block& block) const {
     }
 }
 
-void GpuSession::upload_targets(const std::vector<Vec3>& targets) {
-    narrow_targets_.clear();
-    std::transform(targets.begin(), targets.end(), std::back_inserter(narrow_targets_),
-                   [](const Vec3& v) { return narrowed(v); });
-    const std::span<const glm::vec3> values = narrow_targets_;
-    if (values.size_bytes() > targets_.size()) {
-        targets_ = storage_buffer(pipeline_->device(), values, MemoryUse::upload);
+void GpuSession::upload(const DeformMotion& motion) {
+    DeviceState& device = pipeline_->device();
+    narrow_into(narrow_targets_, motion.targets);
+    bool grown = refill(device, targets_, narrow_targets_);
+    if (input_->occluders.moves()) {
+        narrow_into(narrow_poses_, kernel_poses(*input_, motion));
+        grown = refill(device, poses_, narrow_poses_) || grown;
+    }
+    if (grown) {
         bind_resources();
-        return;
     }
-    targets_.write_all(values);
-}
-
-void GpuSession::upload_poses(const DeformMotion& motion) {
-    if (!input_->occluders.moves()) {
-        return;
-    }
-    poses_ = narrow_buffer(pipeline_->device(), kernel_poses(*input_, motion));
-    bind_resources();
 }
 
 void GpuSession::update(const DeformMotion& motion) {
     if (!fits_handles(motion, input_->handle_count)) {
         throw InternalError("the deformation's input and motion do not fit each other");
     }
-    commands_.wait(); // the targets are free to be written
-    upload_targets(motion.targets);
-    upload_poses(motion);
+    commands_.wait(); // targets and poses are free to be written
+    upload(motion);
     const kernel::f32::KernelParams params = narrowed(kernel_params(*input_, motion));
     const ComputeKernel& kernel = pipeline_->kernel(variant_of(*input_, motion));
     if (!recorded_ || recorded_->second != &kernel || !same_bytes(recorded_->first, params)) {

@@ -48,15 +48,15 @@ class GpuSession final : public DeformSession {
 
     Chunk make_chunk(uint32_t first, uint32_t count) const;
     void make_ends();
-    void take_shapes();
-    void take_occluders();
+    /// @return whether resources are others now.
+    bool take_shapes();
+    bool take_occluders();
     void bind_resources();
     void bind_resources(const Chunk& chunk, Block& block) const;
     void download(const Chunk& chunk, std::vector<PointResult>& results) const;
     void check_ready() const;
     void record(const kernel::f32::KernelParams& params, const ComputeKernel& kernel);
-    void upload_targets(const std::vector<Vec3>& targets);
-    void upload_poses(const DeformMotion& motion);
+    void upload(const DeformMotion& motion);
 
     std::shared_ptr<DeformPipeline> pipeline_;
     std::shared_ptr<const DeformInput> input_;
@@ -69,7 +69,8 @@ class GpuSession final : public DeformSession {
     Buffer nodes_;
     Buffer targets_;
     Buffer poses_;
-    std::vector<glm::vec3> narrow_targets_;
+    std::vector<glm::vec3> narrow_targets_; ///< kept for their memory
+    std::vector<kernel::f32::Pose> narrow_poses_;
     std::vector<Chunk> chunks_;
     Buffer ends_; ///< where the points are, then the rim of the fans; none without fans
     std::optional<NormalsPass> normals_;

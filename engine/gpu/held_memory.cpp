@@ -8,6 +8,7 @@ HeldMemory::HeldMemory(DeviceState& device, uint64_t bytes, uint32_t type)
     : memory_(device.device.allocateMemory({.allocationSize = bytes, .memoryTypeIndex = type})),
       in_use_(&device.memory_in_use), bytes_(bytes) {
     *in_use_ += bytes_;
+    ++device.allocations;
 }
 
 HeldMemory::HeldMemory(HeldMemory&& other) noexcept

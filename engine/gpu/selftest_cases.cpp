@@ -121,6 +121,7 @@ k::Occluder& add_occluder(SelftestCase& test, const std::vector<k::ShapeNode>& n
     set.occluders.push_back(occluder);
     set.exact.push_back(formula_distance(nodes));
     set.sizes.push_back(1);
+    set_box(set.occluders.back(), set.exact.back()->bounds());
     return set.occluders.back();
 }
 
@@ -194,6 +195,7 @@ SelftestCase sampled_case(const char* name, uint32_t seed) {
     test.input.occluders.nodes.back().volume = 0;
     test.input.occluders.volumes.push_back(volume);
     test.input.occluders.exact.back() = exact;
+    set_box(occluder, exact->bounds());
     return finished(std::move(test));
 }
 

@@ -5,6 +5,7 @@
 #include "engine/occluder/shape_nodes.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace anvil {
 
@@ -160,6 +161,7 @@ void add_occluder(OccluderSet& set, const OccluderModel& model, const std::strin
     set_contact(occluder, model, size);
     set_influence(set, occluder, influence,
                   default_sigma * (bounded(model.bounds) ? 0.5 * size : scale.radius));
+    set_box(occluder, model.bounds);
 
     const uint32_t first_word = model.field ? add_words(set, model.field) : 0;
     for (k::ShapeNode node : model.nodes) {
@@ -171,6 +173,15 @@ void add_occluder(OccluderSet& set, const OccluderModel& model, const std::strin
     set.occluders.push_back(occluder);
     set.exact.push_back(model.exact);
     set.sizes.push_back(size);
+}
+
+void set_box(k::Occluder& occluder, const Box& bounds) {
+    occluder.boxed = 1;
+    for (int i = 0; i < 3; ++i) {
+        const bool ends = std::isfinite(bounds.low[i]) && std::isfinite(bounds.high[i]);
+        occluder.box_centre[i] = ends ? 0.5 * (bounds.low[i] + bounds.high[i]) : 0;
+        occluder.box_half[i] = ends ? 0.5 * (bounds.high[i] - bounds.low[i]) : infinity;
+    }
 }
 
 double touching_distance(const OccluderSet& set, size_t occluder) {

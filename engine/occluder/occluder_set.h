@@ -77,6 +77,9 @@ struct OccluderScale {
 void add_occluder(OccluderSet& set, const OccluderModel& model, const std::string& name,
                   const Transform& pose, const Influence& influence, const OccluderScale& scale);
 
+/// Gives an occluder its box, bounds in its own space; sides at infinity are never left behind.
+void set_box(kernel::f64::Occluder& occluder, const Box& bounds);
+
 /// How deep inside a point still counts as touching from outside: 1e-9 of the occluder's size, more than
 /// rounding makes of a point put on its surface.
 double touching_distance(const OccluderSet& set, size_t occluder);

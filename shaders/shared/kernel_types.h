@@ -71,7 +71,8 @@ const uint INFLUENCE_PAPER = 3u;
 
 // An occluder's pose (rows of the rotation into its space, origin, uniform scale), its shape and how it acts:
 // contact at level `margin` (m) with steps of at least `step` (h / 2), settling at `settle` (e); the
-// influence's strength and width (sigma of `soft`, w of a curve).
+// influence's strength and width (sigma of `soft`, w of a curve). boxed: 1: it lies in a box with sides along
+// its own axes, box_centre and box_half in its own space; 0: no such box is known.
 struct Occluder {
     real3 axis_x;
     real3 axis_y;
@@ -87,6 +88,9 @@ struct Occluder {
     real strength;
     real width;
     CurveRange curve;
+    uint boxed;
+    real3 box_centre;
+    real3 box_half;
 };
 
 // Where an occluder is at a sample of the path, and how it goes on to the next one (shares of both linear,
@@ -154,3 +158,4 @@ const real CORNER_DEPTH =
 const real SOFT_REACH = 4.0;    // in sigma: exp(-16) is below float's resolution
 const real SOFT_FINENESS = 8.0; // steps per sigma within the reach
 const real CURVE_FINENESS = 32.0;
+const real BOX_SAFETY = 1.05; // of an influence's reach: fields err by up to 4 % of far distances

@@ -260,12 +260,16 @@ Probe shape_probe(uint first, uint count, real3 p) {
     return top;
 }
 
+// p, relative to the mesh's origin, in the occluder's own space.
+real3 in_space_of(Occluder occluder, real3 p) {
+    real3 arm = (p - occluder.origin) / occluder.scale;
+    return real3(dot(occluder.axis_x, arm), dot(occluder.axis_y, arm), dot(occluder.axis_z, arm));
+}
+
 // Occluder `index` at p, both relative to the mesh's origin.
 Probe occluder_probe(uint index, real3 p) {
     Occluder occluder = occluders[index];
-    real3 arm = (p - occluder.origin) / occluder.scale;
-    real3 q = real3(dot(occluder.axis_x, arm), dot(occluder.axis_y, arm), dot(occluder.axis_z, arm));
-    Probe result = shape_probe(occluder.first_node, occluder.node_count, q);
+    Probe result = shape_probe(occluder.first_node, occluder.node_count, in_space_of(occluder, p));
     result.distance = result.distance * occluder.scale;
     result.normal = occluder.axis_x * result.normal.x + occluder.axis_y * result.normal.y +
                     occluder.axis_z * result.normal.z;

@@ -112,6 +112,15 @@ real grown(uint k, uint segment, real share) {
     return params.moving == 0u ? real(1.0) : growth_by(pose_at(segment, k), share);
 }
 
+// p as a point of space that goes along with occluder `k`, from where that is at tau of the segment that the
+// pose begins to where it is in `occluders`; `ratio`: of its scale there to that.
+real3 carried_back(uint k, Pose pose, real3 p, real tau, real ratio) {
+    real3 arm = p - (pose.origin + tau * pose.move);
+    arm += turn_offset(pose, -tau * pose.turn, arm);
+    real3 q = real3(dot(pose.axis_x, arm), dot(pose.axis_y, arm), dot(pose.axis_z, arm));
+    return occluders[k].origin + q / ratio;
+}
+
 // Occluder `k` at p, where it is at tau of a segment of the path.
 Probe posed_probe(uint k, real3 p, uint segment, real tau) {
     if (params.moving == 0u) {
@@ -119,10 +128,7 @@ Probe posed_probe(uint k, real3 p, uint segment, real tau) {
     }
     Pose pose = pose_at(segment, k);
     real ratio = pose.ratio * growth_by(pose, tau);
-    real3 arm = p - (pose.origin + tau * pose.move);
-    arm += turn_offset(pose, -tau * pose.turn, arm);
-    real3 q = real3(dot(pose.axis_x, arm), dot(pose.axis_y, arm), dot(pose.axis_z, arm));
-    Probe probe = occluder_probe(k, occluders[k].origin + q / ratio);
+    Probe probe = occluder_probe(k, carried_back(k, pose, p, tau, ratio));
     real3 n = pose.axis_x * probe.normal.x + pose.axis_y * probe.normal.y + pose.axis_z * probe.normal.z;
     probe.distance = probe.distance * ratio;
     probe.normal = n + turn_offset(pose, tau * pose.turn, n);

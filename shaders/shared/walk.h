@@ -303,33 +303,37 @@ Vertex vertex_at_start(uint i) {
     return vertex;
 }
 
-// Point i from its place before the edit to its displacement after it.
-VertexResult deformed(uint i) {
+// Point i from its place before the edit to its displacement after it, past occluders that may act on it.
+VertexResult hindered(uint i) {
     Vertex vertex = vertex_at_start(i);
     bool lifts = params.paper == 0u && !vertex.inside;
     bool stands = params.moving == 0u;
-    real path_length = params.occluder_count > 0u && stands ? whole_length(i, vertex.start) : real(0.0);
     Walk walk = walk_from(real3(0.0), LOOK_NONE);
-    if (params.occluder_count == 0u) {
-        walk.at = path_at(path_segment(i, params.sample_count - 1u, vertex.start), 1.0);
-    } else if (!stands || path_length > params.path_epsilon) {
-        if (params.paper != 0u) {
-            for (uint s = 0u; s < params.sample_count; ++s) {
-                vertex.segment = s;
-                walk.at = follow_paper(vertex, path_segment(i, s, vertex.start));
-            }
-        } else {
-            walk = followed(i, vertex);
+    if (params.paper != 0u) {
+        for (uint s = 0u; s < params.sample_count; ++s) {
+            vertex.segment = s;
+            walk.at = follow_paper(vertex, path_segment(i, s, vertex.start));
         }
+    } else {
+        walk = followed(i, vertex);
     }
     VertexResult result;
     result.displacement = walk.at + vertex.offset;
     if (lifts && vertex.offset != real3(0.0)) {
-        result.displacement = stands ? bounded_by(result.displacement, path_length)
+        result.displacement = stands ? bounded_by(result.displacement, whole_length(i, vertex.start))
                                      : bounded_past_moving(result.displacement, walk.here, vertex);
     }
     result.steps = vertex.steps;
     result.samples = vertex.samples;
     result.flags = vertex.flags;
+    return result;
+}
+
+// Any point.
+VertexResult deformed(uint i) {
+    VertexResult result;
+    if (!unhindered(i, result)) {
+        result = hindered(i);
+    }
     return result;
 }

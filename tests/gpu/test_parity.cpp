@@ -119,6 +119,56 @@ TEST_CASE("work split into many chunks gives the same bits") {
 
 namespace {
 
+/// Where `boxed` and `unboxed` are of one edit with the occluders' boxes known and unknown.
+void check_that_boxes_spare_looks_alone(const SelftestCase& test, const std::vector<PointResult>& boxed,
+                                        const std::vector<PointResult>& unboxed, size_t& spared) {
+    REQUIRE(boxed.size() == unboxed.size());
+    for (size_t i = 0; i < boxed.size(); ++i) {
+        REQUIRE(std::isfinite(glm::length(boxed[i].displacement)));
+        REQUIRE(boxed[i].samples <= unboxed[i].samples);
+        const double difference = glm::length(boxed[i].displacement - unboxed[i].displacement);
+        if (boxed[i].samples == unboxed[i].samples) {
+            REQUIRE(difference == 0); // the same walk
+        } else {
+            ++spared;
+            REQUIRE(boxed[i].samples == 0);
+            REQUIRE((unboxed[i].flags & kernel::f64::VERTEX_TOUCHED) == 0);
+            // Beyond its reach a soft influence is below exp(-16) of the path, which is at most 1.5 long.
+            REQUIRE(difference <= 1.5 * std::exp(-16.0) + 1e-12 * test.diagonal);
+        }
+    }
+}
+
+} // namespace
+
+TEST_CASE("boxes of occluders spare looks at what passes them by, and change nothing") {
+    const CheckedDevice device;
+    const auto on_device = make_gpu_backend(device.shared());
+    const auto on_cpu = make_cpu_backend();
+    for (const SelftestCase& test : selftest_cases()) {
+        SelftestCase unboxed = test;
+        bool bounded =
+            !test.input.occluders.empty() && !test.input.occluders.paper && !test.motion.every_step;
+        for (kernel::f64::Occluder& occluder : unboxed.input.occluders.occluders) {
+            bounded = bounded && occluder.boxed != 0 && std::isfinite(occluder.box_half.x);
+            occluder.boxed = 0;
+        }
+        INFO(test.name);
+        // That the device does as the CPU is shown above; a few kernels to compile are enough.
+        const bool compiled = test.name == "sphere, hard" || test.name == "path with three samples" ||
+                              test.name == "swelling hammer against a turning mesh";
+        for (Backend* backend : {on_cpu.get(), compiled ? on_device.get() : on_cpu.get()}) {
+            size_t spared = 0;
+            check_that_boxes_spare_looks_alone(test, run(*backend, test), run(*backend, unboxed), spared);
+            const size_t least = test.name == "empty region" ? 0 : test.input.points.size() / 20;
+            CHECK((!bounded || spared >= least));
+            CHECK((bounded || spared == 0));
+        }
+    }
+}
+
+namespace {
+
 /// Blending alone: `handles` straight falloffs of distances that differ from point to point.
 DeformInput blend_of(size_t points, size_t handles) {
     std::mt19937 random(7);
