@@ -30,7 +30,7 @@ struct LiveContact {
 /// A part of a mesh that moves, with the triangles around it. O(part) to make and to ask.
 class ContactProbe {
   public:
-    /// `at_rest`: places (world) of the whole mesh; `moving`: its vertices that move, each once, ascending.
+    /// `at_rest`: places (world) of the whole mesh; `moving`: its vertices that move, each once.
     ContactProbe(std::span<const Triangle> triangles, const Incidence& incidence,
                  std::span<const Vec3> at_rest, std::span<const uint32_t> moving);
 

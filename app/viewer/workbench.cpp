@@ -45,10 +45,8 @@ std::vector<Vec3> handle_ends(const EditRegion& region, std::span<const Vec3> po
     for (const auto& weights : region.handle_weights) {
         Vec3 end(0);
         for (const VertexWeight& w : weights) {
-            const auto found = std::lower_bound(region.vertices.begin(), region.vertices.end(), w.vertex);
-            const bool moves = found != region.vertices.end() && *found == w.vertex;
-            end += w.weight * (moves ? positions[static_cast<size_t>(found - region.vertices.begin())]
-                                     : at_rest[w.vertex]);
+            const size_t at = region.index_of(w.vertex);
+            end += w.weight * (at < positions.size() ? positions[at] : at_rest[w.vertex]);
         }
         ends.push_back(end);
     }

@@ -71,13 +71,18 @@ std::vector<uint32_t> counted(size_t count) {
 
 } // namespace
 
+std::vector<uint32_t> order_by_place(std::span<const Vec3> points) {
+    const std::vector<uint32_t> codes = morton_codes(points);
+    std::vector<uint32_t> order = counted(points.size());
+    for (int shift = 0; shift < 3 * bits_an_axis; shift += bits_an_axis) {
+        order = sorted_by(order, codes, shift, cells - 1);
+    }
+    return order;
+}
+
 Numbering number_by_place(std::span<const Triangle> triangles, std::span<const Vec3> positions) {
     Numbering numbering;
-    const std::vector<uint32_t> codes = morton_codes(positions);
-    numbering.mesh_vertex = counted(positions.size());
-    for (int shift = 0; shift < 3 * bits_an_axis; shift += bits_an_axis) {
-        numbering.mesh_vertex = sorted_by(numbering.mesh_vertex, codes, shift, cells - 1);
-    }
+    numbering.mesh_vertex = order_by_place(positions);
     numbering.new_vertex = inverse(numbering.mesh_vertex);
     std::vector<uint32_t> first(triangles.size());
     for (size_t t = 0; t < triangles.size(); ++t) {

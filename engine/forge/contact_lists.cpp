@@ -56,6 +56,7 @@ std::vector<ContactList> contact_lists(const ContactReport& contact, const std::
         for (const uint32_t point : contact.occluders[k].points) {
             list.vertices.push_back(region.vertices[point]);
         }
+        std::sort(list.vertices.begin(), list.vertices.end());
         uint32_t face = 0;
         for (const uint32_t triangle : contact.occluders[k].triangles) {
             while (mesh.first_triangle(face + size_t{1}) <= triangle) {

@@ -80,7 +80,7 @@ DragSession::Stage DragSession::opened(const Edit& edit, const EditOccluders& oc
     Stage stage;
     stage.edit = edit;
     stage.measured = std::move(measured);
-    stage.region = region_within(edit, *stage.measured, radii, scene_.numbers());
+    stage.region = region_within(edit, *stage.measured, radii, scene_.positions(), scene_.numbers());
     OccluderSet set = set_for(edit, occluders, stage.region);
     stage.uses = occluders.uses_of(edit);
     stage.models = occluders.models_of(stage.uses);
@@ -103,6 +103,9 @@ void DragSession::change(const Edit& edit, const EditOccluders& occluders) {
     const bool occluders_stand = uses == now_.uses && models == now_.models &&
                                  (!now_.input->occluders.moves() || edit.amount == now_.edit.amount);
     OccluderSet set = occluders_stand ? OccluderSet{} : set_for(edit, occluders, now_.region);
+    if (models == now_.models) {
+        set.field_words = now_.input->occluders.field_words; // the device has them
+    }
     const bool shapes_stand = same_shapes(edit, now_.edit);
     std::vector<ShapeFunction> shapes = shapes_stand ? std::vector<ShapeFunction>{} : shapes_of(edit);
     const auto exchange_shapes = [&] {

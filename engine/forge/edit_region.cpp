@@ -1,6 +1,7 @@
 #include "engine/forge/edit_region.h"
 
 #include "engine/core/error.h"
+#include "engine/distance/numbering.h"
 #include "engine/forge/anchor_set.h"
 
 #include <algorithm>
@@ -50,13 +51,6 @@ std::vector<uint32_t> region_vertices(const EditDistances& measured, const std::
     numbers.clear();
     std::sort(vertices.begin(), vertices.end());
     return vertices;
-}
-
-/// Index of vertex v in the ascending list, or its size.
-size_t place_of(const std::vector<uint32_t>& vertices, uint32_t v) {
-    const auto found = std::lower_bound(vertices.begin(), vertices.end(), v);
-    return found != vertices.end() && *found == v ? static_cast<size_t>(found - vertices.begin())
-                                                  : vertices.size();
 }
 
 void fill_fields(const EditDistances& measured, EditRegion& region, VertexNumbers& numbers) {
@@ -145,8 +139,14 @@ std::vector<uint32_t> pinned_vertices(const Edit& edit, const std::string& place
     return pinned;
 }
 
+size_t EditRegion::index_of(uint32_t v) const {
+    const auto found = std::lower_bound(by_vertex.begin(), by_vertex.end(), v,
+                                        [&](uint32_t at, uint32_t sought) { return vertices[at] < sought; });
+    return found != by_vertex.end() && vertices[*found] == v ? *found : vertices.size();
+}
+
 double EditRegion::weight(size_t j, uint32_t v) const {
-    const size_t at = place_of(vertices, v);
+    const size_t at = index_of(v);
     return at < vertices.size() ? shapes[j](fields[j * vertices.size() + at]) : 0;
 }
 
@@ -199,24 +199,40 @@ EditDistances measure_distances(const Edit& edit, const std::string& place, Surf
 }
 
 EditRegion region_within(const Edit& edit, const EditDistances& measured, const std::vector<double>& radii,
-                         VertexNumbers& numbers) {
+                         std::span<const Vec3> positions, VertexNumbers& numbers) {
     EditRegion region;
     region.handle_positions = measured.handle_positions;
     region.handle_weights = measured.handle_weights;
     region.radii = radii;
     region.methods = measured.methods;
     region.shapes = shapes_of(edit);
-    region.vertices = region_vertices(measured, radii, numbers);
+    set_vertices(region, region_vertices(measured, radii, numbers), positions);
     if (!edit.handles.empty()) {
         fill_fields(measured, region, numbers);
     }
     return region;
 }
 
+void set_vertices(EditRegion& region, const std::vector<uint32_t>& ascending,
+                  std::span<const Vec3> positions) {
+    std::vector<Vec3> places;
+    places.reserve(ascending.size());
+    for (const uint32_t v : ascending) {
+        places.push_back(positions[v]);
+    }
+    const std::vector<uint32_t> order = order_by_place(places);
+    region.vertices.resize(order.size());
+    region.by_vertex.resize(order.size());
+    for (uint32_t i = 0; i < order.size(); ++i) {
+        region.vertices[i] = ascending[order[i]];
+        region.by_vertex[order[i]] = i;
+    }
+}
+
 EditRegion find_region(const Edit& edit, const std::string& place, SurfaceState& surface) {
     VertexNumbers numbers(surface.vertex_count());
     const EditDistances measured = measure_distances(edit, place, surface);
-    return region_within(edit, measured, measured.radii, numbers);
+    return region_within(edit, measured, measured.radii, surface.positions(), numbers);
 }
 
 } // namespace anvil

@@ -7,6 +7,7 @@
 #include "engine/mesh/vertex_numbers.h"
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,10 +20,15 @@ struct EditRegion {
     std::vector<std::vector<VertexWeight>> handle_weights; ///< k: the vertices that carry each handle
     std::vector<double> radii;                             ///< k, world units
     std::vector<ShapeFunction> shapes;                     ///< k
-    std::vector<uint32_t> vertices;                        ///< ascending: t <= 1 for some handle, not pinned
+    /// t <= 1 for some handle, not pinned. By place (order_by_place()), whatever the mesh's order is: what is
+    /// worked side by side then takes about as many steps.
+    std::vector<uint32_t> vertices;
+    std::vector<uint32_t> by_vertex;  ///< n: indices into `vertices` that make these ascend
     std::vector<double> fields;       ///< k x n: t = gamma / R, infinite where not reached
     std::vector<std::string> methods; ///< k, how the handle's distances were found, for the report
 
+    /// Index of vertex `v` in `vertices`; n outside the region.
+    size_t index_of(uint32_t v) const;
     /// Weight alpha_j of handle j at vertex `v`; 0 outside the region.
     double weight(size_t j, uint32_t v) const;
 };
@@ -48,10 +54,14 @@ using FieldsFinder = std::function<std::vector<DistanceField>(std::span<const Di
 EditDistances measure_distances(const Edit& edit, const std::string& place, SurfaceState& surface,
                                 const FieldsFinder& find);
 
-/// The region by the distances, for `radii` not larger than the measured ones. `numbers` of the mesh's
-/// vertices, clear before and after. O(region), or O(mesh) where the whole mesh takes part.
+/// The region by the distances, for `radii` not larger than the measured ones. `positions` of the mesh;
+/// `numbers` of its vertices, clear before and after. O(region), or O(mesh) where the whole mesh takes part.
 EditRegion region_within(const Edit& edit, const EditDistances& measured, const std::vector<double>& radii,
-                         VertexNumbers& numbers);
+                         std::span<const Vec3> positions, VertexNumbers& numbers);
+
+/// Makes these ascending vertices the region's, and orders them.
+void set_vertices(EditRegion& region, const std::vector<uint32_t>& ascending,
+                  std::span<const Vec3> positions);
 
 /// Both. @throws InputError as measure_distances() does.
 EditRegion find_region(const Edit& edit, const std::string& place, SurfaceState& surface);

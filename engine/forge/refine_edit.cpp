@@ -158,15 +158,16 @@ RefineStart start_refinement(const Edit& edit, const std::string& place, const M
 }
 
 void fill_region(EditRegion& region, const RefineState& state, const std::vector<uint32_t>& pinned) {
-    region.vertices.clear();
+    std::vector<uint32_t> vertices;
     for (uint32_t v = 0; v < state.positions.size(); ++v) {
         const bool reached = std::any_of(state.handles.begin(), state.handles.end(), [v](const auto& handle) {
             return handle.distance(v) <= handle.radius;
         });
         if (reached && !std::binary_search(pinned.begin(), pinned.end(), v)) {
-            region.vertices.push_back(v);
+            vertices.push_back(v);
         }
     }
+    set_vertices(region, vertices, state.positions);
     region.fields.clear();
     for (size_t j = 0; j < region.shapes.size(); ++j) {
         const HandleField& handle = state.handles[j];

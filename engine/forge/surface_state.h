@@ -36,6 +36,8 @@ class SurfaceState {
                  KeptSolvers& solvers, uint64_t number = new_surface_number())
         : mesh_(mesh), positions_(positions), history_(history), solvers_(solvers), number_(number) {}
 
+    std::span<const Vec3> positions() const { return positions_; }
+
     /// `place` begins the message, e.g. "edits[0].handles[1].at".
     /// @throws InputError if an index is out of range or the mesh has no surface to be near to.
     SurfacePoint resolve(const SurfaceAddress& address, const std::string& place);
