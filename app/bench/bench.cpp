@@ -29,8 +29,8 @@ void keep_only(std::vector<BenchCase>& cases, const std::string& only) {
 }
 
 SamplingEffort effort_of(const BenchOptions& options) {
-    return options.extent.quick ? SamplingEffort{3, 25, 0.5, options.clock}
-                                : SamplingEffort{5, 25, 4, options.clock};
+    return options.extent.quick ? SamplingEffort{3, 25, 0.5, 2, options.clock}
+                                : SamplingEffort{3, 25, 2, 2, options.clock};
 }
 
 } // namespace

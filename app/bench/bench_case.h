@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,13 @@ struct Yardstick {
     std::function<void()> work;
 };
 
+/// How far results are from those of a path in steps so small that smaller ones change nothing to speak of;
+/// parts of the edited mesh's diagonal.
+struct StepError {
+    double rms = 0;
+    double worst_of_99 = 0; ///< per cent of the vertices
+};
+
 /// A case that is ready to run; its functions own what they need.
 struct ReadyCase {
     size_t vertices = 0; ///< of the mesh
@@ -24,6 +32,7 @@ struct ReadyCase {
     uint64_t bytes = 0;  ///< that have to be read or written at least once
     std::function<void()> work;
     std::vector<Yardstick> yardsticks;
+    std::optional<StepError> error;
 };
 
 /// A case that is prepared only when it is its turn. The name has no spaces; its parts are joined by '/'.
@@ -40,6 +49,7 @@ struct BenchResult {
     uint64_t bytes = 0;
     uint64_t device_bytes = 0; ///< of the device's memory that the case holds, its yardsticks on it included
     std::vector<std::pair<std::string, double>> ratios; ///< by yardstick: median over the yardstick's median
+    std::optional<StepError> error;
 };
 
 /// `device_memory`: bytes of it in use now.

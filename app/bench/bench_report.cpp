@@ -58,16 +58,20 @@ Json case_json(const BenchResult& r) {
     for (const auto& [yardstick, number] : r.ratios) {
         ratio[yardstick] = number;
     }
-    return {{"name", r.name},
-            {"vertices", r.vertices},
-            {"region", r.region},
-            {"samples", r.timing.samples},
-            {"median_s", r.timing.median_s},
-            {"min_s", r.timing.min_s},
-            {"max_s", r.timing.max_s},
-            {"bytes", r.bytes},
-            {"device_bytes", r.device_bytes},
-            {"ratio", ratio}};
+    Json json = {{"name", r.name},
+                 {"vertices", r.vertices},
+                 {"region", r.region},
+                 {"samples", r.timing.samples},
+                 {"median_s", r.timing.median_s},
+                 {"min_s", r.timing.min_s},
+                 {"max_s", r.timing.max_s},
+                 {"bytes", r.bytes},
+                 {"device_bytes", r.device_bytes},
+                 {"ratio", ratio}};
+    if (r.error) {
+        json["step_error"] = {{"rms", r.error->rms}, {"worst_of_99_percent", r.error->worst_of_99}};
+    }
+    return json;
 }
 
 BenchResult read_case(const JsonReader& from, const nlohmann::json& document) {
@@ -95,6 +99,10 @@ std::string table_row(const BenchResult& r) {
     std::string ratios;
     for (const auto& [yardstick, number] : r.ratios) {
         ratios += (ratios.empty() ? "" : "  ") + yardstick + " " + short_text(number);
+    }
+    if (r.error) {
+        ratios += "  (off by " + short_text(r.error->rms) + " rms, 99 % by " +
+                  short_text(r.error->worst_of_99) + " of the diagonal)";
     }
     if (r.device_bytes >= shown_memory) {
         ratios += "  (" + std::to_string(r.device_bytes >> 20) + " MiB on the device)";

@@ -1,14 +1,15 @@
 // The kernels: blending alone, and forging past occluders.
 #include "app/bench/deform_scene.h"
+#include "app/bench/step_error.h"
 #include "app/bench/workshop.h"
 
 namespace anvil {
 
 namespace {
 
-std::function<void()> updates(Backend& backend, const DeformInput& input, const DeformMotion& motion) {
-    const std::shared_ptr<DeformSession> session = backend.prepare(input);
-    return [session, motion] {
+std::function<void()> updates(Backend& backend, const DeformScene& scene) {
+    const std::shared_ptr<DeformSession> session = backend.prepare(scene.input);
+    return [session, motion = scene.motion] {
         session->update(motion);
         session->wait();
     };
@@ -16,12 +17,14 @@ std::function<void()> updates(Backend& backend, const DeformInput& input, const 
 
 std::vector<Yardstick> yardsticks_of(Workshop& workshop, const DeformScene& scene) {
     std::vector<Yardstick> yardsticks;
-    yardsticks.push_back({"cpu", updates(workshop.cpu(), scene.input, scene.motion)});
-    yardsticks.push_back({"cpu_float", updates(workshop.float_cpu(), scene.input, scene.motion)});
+    yardsticks.push_back({"cpu", updates(workshop.cpu(), scene)});
+    if (scene.input->fans.empty()) {
+        yardsticks.push_back({"cpu_float", updates(workshop.float_cpu(), scene)});
+    }
     if (scene.motion.fixed_steps) {
-        DeformMotion every = scene.motion;
-        every.every_step = true;
-        yardsticks.push_back({"cpu_float_all_steps", updates(workshop.float_cpu(), scene.input, every)});
+        DeformScene every = scene;
+        every.motion.every_step = true;
+        yardsticks.push_back({"cpu_float_all_steps", updates(workshop.float_cpu(), every)});
     }
     yardsticks.push_back(memcpy_yardstick(state_bytes(scene)));
     return yardsticks;
@@ -32,10 +35,13 @@ ReadyCase ready_case(Workshop& workshop, size_t vertices, const DeformSceneOptio
     const DeformScene scene = make_deform_scene(*sphere, options);
     ReadyCase ready;
     ready.vertices = sphere->vertex_count();
-    ready.region = scene.input.points.size();
+    ready.region = scene.input->points.size();
     ready.bytes = state_bytes(scene);
-    ready.work = updates(workshop.tested(), scene.input, scene.motion);
+    ready.work = updates(workshop.tested(), scene);
     ready.yardsticks = yardsticks_of(workshop, scene);
+    if (options.occluder != nullptr && options.fixed_steps == 0) {
+        ready.error = step_error(workshop.tested(), workshop.cpu(), scene, bounds(*sphere).diagonal());
+    }
     return ready;
 }
 
@@ -72,9 +78,52 @@ class DeformCases {
         cases_.push_back({name + "/" + size_text(vertices), prepare});
     }
 
-    void order(size_t vertices, bool shuffled) {
-        add(shuffled ? "order/shuffled/n32" : "order/as-given/n32", vertices,
-            {.share = 0.2, .fixed_steps = 32, .shuffled = shuffled}, Workshop::Obstacle::dense);
+    /// With every step taken, so that a vertex costs the same wherever it is; beside the whole mesh alone.
+    void region_of_equal_work(size_t vertices, const char* share_text, double share) {
+        const auto prepare = [&workshop = workshop_, vertices, share] {
+            const auto scene_of = [&](double part) {
+                DeformSceneOptions options{.share = part, .fixed_steps = 32};
+                options.occluder = &workshop.obstacle(Workshop::Obstacle::analytic);
+                DeformScene scene = make_deform_scene(*workshop.sphere(vertices), options);
+                scene.motion.every_step = true;
+                return scene;
+            };
+            const DeformScene scene = scene_of(share);
+            ReadyCase ready;
+            ready.vertices = workshop.sphere(vertices)->vertex_count();
+            ready.region = scene.input->points.size();
+            ready.bytes = state_bytes(scene);
+            ready.work = updates(workshop.tested(), scene);
+            ready.yardsticks.push_back({"whole_mesh", updates(workshop.tested(), scene_of(1))});
+            return ready;
+        };
+        cases_.push_back(
+            {std::string("region/") + share_text + "%/n32-every/" + size_text(vertices), prepare});
+    }
+
+    /// Beside the order that regions have.
+    void order(size_t vertices, PointOrder order) {
+        const std::string name =
+            order == PointOrder::shuffled ? "order/shuffled/n32/" : "order/as-given/n32/";
+        const auto prepare = [&workshop = workshop_, vertices, order] {
+            DeformSceneOptions options{.share = 0.2, .fixed_steps = 32, .order = order};
+            options.occluder = &workshop.obstacle(Workshop::Obstacle::analytic);
+            ReadyCase ready = ready_case(workshop, vertices, options);
+            options.order = PointOrder::by_place;
+            ready.yardsticks.push_back({"by_place", ready_case(workshop, vertices, options).work});
+            return ready;
+        };
+        cases_.push_back({name + size_text(vertices), prepare});
+    }
+
+    /// Of all vertices, which a blend of one handle has moved; beside the blend alone.
+    void normals(size_t vertices) {
+        const auto prepare = [&workshop = workshop_, vertices] {
+            ReadyCase ready = ready_case(workshop, vertices, {.normals = true});
+            ready.yardsticks.push_back({"without_normals", ready_case(workshop, vertices, {}).work});
+            return ready;
+        };
+        cases_.push_back({"normals/" + size_text(vertices), prepare});
     }
 
     void rotation(size_t vertices) {
@@ -110,8 +159,9 @@ void add_quick_cases(DeformCases& cases) {
     }
     cases.forge(vertices, analytic, 128);
     cases.region(vertices, "2.5", 0.025);
-    cases.order(vertices, true);
+    cases.order(vertices, PointOrder::shuffled);
     cases.rotation(vertices);
+    cases.normals(vertices);
 }
 
 } // namespace
@@ -132,11 +182,13 @@ void add_deform_cases(std::vector<BenchCase>& cases, Workshop& workshop, const B
         }
         adder.region(vertices, "1", 0.01);
         adder.region(vertices, "2.5", 0.025);
+        adder.region_of_equal_work(vertices, "2.5", 0.025);
         adder.region(vertices, "20", 0.2);
         adder.region(vertices, "100", 1);
-        adder.order(vertices, false);
-        adder.order(vertices, true);
+        adder.order(vertices, PointOrder::as_given);
+        adder.order(vertices, PointOrder::shuffled);
         adder.rotation(vertices);
+        adder.normals(vertices);
     }
 }
 

@@ -1,5 +1,8 @@
 #include "app/bench/deform_scene.h"
 
+#include "engine/distance/numbering.h"
+#include "engine/forge/region_fans.h"
+
 #include <algorithm>
 #include <numbers>
 #include <random>
@@ -18,14 +21,34 @@ Vec3 handle_place(size_t j) {
     return {radius * std::cos(angle), y, radius * std::sin(angle)};
 }
 
-std::vector<Vec3> points_within(const Mesh& sphere, double radius, bool shuffled) {
-    std::vector<Vec3> points;
-    std::copy_if(sphere.positions.begin(), sphere.positions.end(), std::back_inserter(points),
-                 [radius](const Vec3& p) { return glm::length(p - pole) <= radius; });
-    if (shuffled) {
-        std::shuffle(points.begin(), points.end(), std::mt19937_64(1));
+std::vector<Vec3> places_of(const Mesh& mesh, const std::vector<uint32_t>& vertices) {
+    std::vector<Vec3> places;
+    places.reserve(vertices.size());
+    std::transform(vertices.begin(), vertices.end(), std::back_inserter(places),
+                   [&](uint32_t v) { return mesh.positions[v]; });
+    return places;
+}
+
+/// Vertices within a distance of the pole.
+std::vector<uint32_t> vertices_within(const Mesh& sphere, double radius, PointOrder order) {
+    std::vector<uint32_t> given;
+    for (uint32_t v = 0; v < sphere.vertex_count(); ++v) {
+        if (glm::length(sphere.positions[v] - pole) <= radius) {
+            given.push_back(v);
+        }
     }
-    return points;
+    if (order == PointOrder::shuffled) {
+        std::shuffle(given.begin(), given.end(), std::mt19937_64(1));
+    }
+    if (order != PointOrder::by_place) {
+        return given;
+    }
+    std::vector<uint32_t> vertices;
+    vertices.reserve(given.size());
+    for (const uint32_t i : order_by_place(places_of(sphere, given))) {
+        vertices.push_back(given[i]);
+    }
+    return vertices;
 }
 
 /// One smooth falloff for each handle, straight distances.
@@ -76,28 +99,44 @@ void add_obstacle(DeformInput& input, const DeformSceneOptions& options, double 
     find_start_distances(input);
 }
 
+/// Places and fans read, normals and places written.
+uint64_t normals_bytes(const DeformInput& input) {
+    const NormalFans& fans = input.fans;
+    return fans.empty() ? 0
+                        : fans.normal_count() * (sizeof(uint32_t) + sizeof(glm::vec3)) +
+                              fans.corners.size() * sizeof(kernel::f64::FanCorner) +
+                              2 * input.points.size() * sizeof(glm::vec3);
+}
+
 } // namespace
 
 DeformScene make_deform_scene(const Mesh& sphere, const DeformSceneOptions& options) {
     const double radius = 2 * std::sqrt(options.share); // a cap's area is pi times its chord squared
     DeformScene scene;
-    scene.input.points = points_within(sphere, radius, options.shuffled);
-    add_handles(scene.input, options.handles, radius);
+    scene.input = std::make_shared<DeformInput>();
+    const std::vector<uint32_t> vertices = vertices_within(sphere, radius, options.order);
+    scene.input->points = places_of(sphere, vertices);
+    add_handles(*scene.input, options.handles, radius);
     scene.motion = motion_of(options, radius);
     if (options.occluder != nullptr) {
-        add_obstacle(scene.input, options, radius);
+        add_obstacle(*scene.input, options, radius);
+    }
+    if (options.normals) {
+        VertexNumbers numbers(sphere.vertex_count());
+        const Incidence incidence = incident_triangles(sphere.triangles, sphere.vertex_count());
+        scene.input->fans = fans_around(vertices, sphere, incidence, sphere.positions, Vec3(0), numbers).fans;
     }
     return scene;
 }
 
 uint64_t state_bytes(const DeformScene& scene) {
-    const bool past_occluders = !scene.input.occluders.empty();
+    const bool past_occluders = !scene.input->occluders.empty();
     const bool by_place = past_occluders || scene.motion.kind != MotionKind::straight;
     const uint64_t counts = 3 * sizeof(uint32_t);
     const uint64_t of_point = (by_place ? sizeof(glm::vec3) : 0) +
                               (past_occluders ? sizeof(float) + counts : 0) +
-                              scene.input.handle_count * sizeof(float) + sizeof(glm::vec3);
-    return of_point * scene.input.points.size();
+                              scene.input->handle_count * sizeof(float) + sizeof(glm::vec3);
+    return of_point * scene.input->points.size() + normals_bytes(*scene.input);
 }
 
 } // namespace anvil

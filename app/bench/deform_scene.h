@@ -10,17 +10,22 @@
 
 namespace anvil {
 
+/// How the points of a scene follow each other: as those of an edit's region do, as the mesh's vertices, or
+/// at random.
+enum class PointOrder { by_place, as_given, shuffled };
+
 struct DeformSceneOptions {
     size_t handles = 1;
     double share = 1; ///< of the sphere's vertices that lie within the radius; 1 handle
     const OccluderModel* occluder = nullptr; ///< of about unit size; nullptr: none
     uint32_t fixed_steps = 0;                ///< 0: adaptive
     MotionKind kind = MotionKind::straight;
-    bool shuffled = false; ///< points in random order in place of the mesh's
+    PointOrder order = PointOrder::by_place;
+    bool normals = false; ///< of the points and those around them
 };
 
 struct DeformScene {
-    DeformInput input;
+    std::shared_ptr<DeformInput> input;
     DeformMotion motion;
 };
 

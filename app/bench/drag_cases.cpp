@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <random>
 
 namespace anvil {
 
@@ -98,8 +100,8 @@ ReadyCase click_case(Workshop& workshop, size_t vertices, const DragOptions& opt
     return ready;
 }
 
-ReadyCase step_case(Workshop& workshop, size_t vertices, const DragOptions& options) {
-    const auto stage = std::make_shared<DragStage>(workshop.sphere(vertices), options);
+ReadyCase step_case(Workshop& workshop, std::shared_ptr<const Mesh> mesh, const DragOptions& options) {
+    const auto stage = std::make_shared<DragStage>(std::move(mesh), options);
     ReadyCase ready = described(workshop, stage);
     ready.work = steps_of(stage, workshop.tested());
     ready.yardsticks.push_back({"cpu", steps_of(stage, workshop.cpu())});
@@ -128,8 +130,37 @@ ReadyCase same_region_case(Workshop& workshop, size_t vertices, const DragOption
     DragOptions half = options;
     half.radius = radius_of(*workshop.sphere(4 * vertices), region);
     half.size = half.radius / options.radius;
-    ReadyCase ready = step_case(workshop, 4 * vertices, half);
+    ReadyCase ready = step_case(workshop, workshop.sphere(4 * vertices), half);
     ready.yardsticks.push_back({"quarter_mesh", steps_of(small, workshop.tested())});
+    return ready;
+}
+
+/// The same mesh with its vertices numbered at random, but for the first.
+Mesh shuffled(const Mesh& mesh) {
+    std::vector<uint32_t> number(mesh.vertex_count());
+    std::iota(number.begin(), number.end(), 0U);
+    std::shuffle(number.begin() + 1, number.end(), std::mt19937_64(1));
+    Mesh result = mesh;
+    for (uint32_t v = 0; v < number.size(); ++v) {
+        result.positions[number[v]] = mesh.positions[v];
+    }
+    for (uint32_t& corner : result.corners) {
+        corner = number[corner];
+    }
+    for (Triangle& triangle : result.triangles) {
+        for (uint32_t& corner : triangle) {
+            corner = number[corner];
+        }
+    }
+    return result;
+}
+
+/// A mesh in random order, beside the same one as it is made.
+ReadyCase shuffled_case(Workshop& workshop, size_t vertices, const DragOptions& options) {
+    const std::shared_ptr<const Mesh> given = workshop.sphere(vertices);
+    ReadyCase ready = step_case(workshop, std::make_shared<const Mesh>(shuffled(*given)), options);
+    const auto stage = std::make_shared<DragStage>(given, options);
+    ready.yardsticks.push_back({"mesh_in_order", steps_of(stage, workshop.tested())});
     return ready;
 }
 
@@ -137,36 +168,45 @@ void add(std::vector<BenchCase>& cases, const std::string& name, std::function<R
     cases.push_back({"drag/" + name, std::move(prepare)});
 }
 
-void add_small(std::vector<BenchCase>& cases, Workshop& workshop) {
-    constexpr size_t vertices = 163'842;
-    const DragOptions free;
-    DragOptions blocked;
-    blocked.occluder = Field{};
-    const std::string size = "/" + size_text(vertices);
-    add(cases, "click" + size, [&workshop, free] { return click_case(workshop, vertices, free); });
-    add(cases, "click/ball" + size, [&workshop, blocked] { return click_case(workshop, vertices, blocked); });
-    add(cases, "step" + size, [&workshop, free] { return step_case(workshop, vertices, free); });
-    add(cases, "step/ball" + size, [&workshop, blocked] { return step_case(workshop, vertices, blocked); });
+/// Click and steps with and without a ball in the way.
+void add_pulls(std::vector<BenchCase>& cases, Workshop& workshop, size_t vertices) {
+    for (const bool past_ball : {false, true}) {
+        DragOptions options;
+        options.occluder = past_ball ? std::optional(Field{}) : std::nullopt;
+        const std::string rest = (past_ball ? "/ball/" : "/") + size_text(vertices);
+        add(cases, "click" + rest,
+            [&workshop, options, vertices] { return click_case(workshop, vertices, options); });
+        add(cases, "step" + rest, [&workshop, options, vertices] {
+            return step_case(workshop, workshop.sphere(vertices), options);
+        });
+    }
 }
 
 } // namespace
 
 void add_drag_cases(std::vector<BenchCase>& cases, Workshop& workshop, const BenchExtent& extent) {
-    add_small(cases, workshop);
+    constexpr size_t blender = 163'842; // vertices of the mesh that Blender was timed with
+    add_pulls(cases, workshop, blender);
     if (extent.quick) {
         return;
     }
-    constexpr size_t vertices = 1'000'000;
     DragOptions options;
     options.occluder = Field{};
+    add(cases, "step/shuffled/" + size_text(blender),
+        [&workshop, options] { return shuffled_case(workshop, blender, options); });
+    for (const size_t vertices : extent.sizes()) {
+        add_pulls(cases, workshop, vertices);
+    }
+    constexpr size_t vertices = 1'000'000;
     options.radius = std::acos(1 - 2 * 0.025); // a fortieth of the sphere
-    add(cases, "step/2.5%/1M", [&workshop, options] { return step_case(workshop, vertices, options); });
+    add(cases, "step/2.5%/1M",
+        [&workshop, options] { return step_case(workshop, workshop.sphere(vertices), options); });
     add(cases, "step/same-region/4M",
         [&workshop, options] { return same_region_case(workshop, vertices, options); });
     DragOptions whole{
         .radius = 4, .handles = 4, .occluder = Field{FieldKind::dense, 128}}; // farther than half around
     add(cases, "step/whole/k4/dense/4M",
-        [&workshop, whole] { return step_case(workshop, 4 * vertices, whole); });
+        [&workshop, whole] { return step_case(workshop, workshop.sphere(4 * vertices), whole); });
 }
 
 } // namespace anvil

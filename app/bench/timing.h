@@ -24,11 +24,13 @@ struct SamplingEffort {
     size_t least = 3;
     size_t most = 25;
     double seconds = 3;
+    double long_s = 2; ///< what beside the first work takes longer is run once
     BenchClock clock = BenchClock::wall;
 };
 
-/// Runs each work once unmeasured (caches, compilation), then all in turn, round by round, so that what else
-/// the machine does meets all alike. One entry per work, equally many samples each.
+/// Runs each work once (caches, compilation), then all in turn, round by round, so that what else the machine
+/// does meets all alike. One entry per work, equally many samples each, but one where the first run of
+/// another than the first work was a long one: that run is its sample.
 std::vector<Timing> measure_together(std::span<const std::function<void()>> works,
                                      const SamplingEffort& effort);
 
