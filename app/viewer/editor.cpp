@@ -292,11 +292,13 @@ std::string Editor::hint() const {
                "Enter: take   Esc: cancel";
     }
     if (tool == Tool::line) {
-        return "Click the points of a line along the surface   Enter, or the last point again: end it   first "
+        return "Click the points of a line along the surface   Enter, or the last point again: end it   "
+               "first "
                "point: close it   Shift+Enter: another handle   Backspace: a point less   Esc: drop it";
     }
     if (tool == Tool::select) {
-        return "Drag a box (B) or a lasso (Shift+B)   Shift: add   Ctrl: take away   V: through the surface   + - "
+        return "Drag a box (B) or a lasso (Shift+B)   Shift: add   Ctrl: take away   V: through the surface  "
+               " + - "
                "H Ctrl+I: grow, shrink, hide, invert   Ctrl+P: pin   Shift+A: anchors   G: move";
     }
     if (has_handles()) {

@@ -93,8 +93,10 @@ class Viewer {
         draw_overlay(session_);
         panels_.show(session_, times_);
         ImGui::Render();
-        // The CPU draws several samples a pixel only once all is at rest.
-        const bool fine = !painter_.draws_on_cpu() || resting();
+        // The CPU draws several samples a pixel only once all is at rest, and of a million triangles never: that
+        // takes it seconds.
+        const bool many = session_.shown().look->coarse != nullptr;
+        const bool fine = !painter_.draws_on_cpu() || (resting() && !many);
         fine_ = painter_.paint(session_.scene(), *ImGui::GetDrawData(), fine) && fine;
         times_.milliseconds = 1000 * seconds_since(start);
         painted_settled_ = session_.settled() && session_.shown().mesh ? painted_settled_ + 1 : 0;
