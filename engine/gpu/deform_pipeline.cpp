@@ -22,7 +22,7 @@ constexpr size_t few_nodes = 8;
 constexpr uint32_t most_kept_segments = 16; // unrolled in every place that blends: compiling takes longer
 constexpr uint32_t points_on_cpu = 8;
 constexpr uint32_t most_wide_handles = 8; // with more, two points at once run out of registers
-constexpr uint32_t blended_on_cpu = 32;   // without occluders all points take alike
+constexpr uint32_t blended_on_cpu = 64;   // without occluders all points take alike
 
 /// In the order of the shader's bindings.
 std::vector<ResourceKind> deform_resources(bool windows) {
