@@ -30,6 +30,7 @@ struct SceneItem {
     bool tinted = true;        ///< the region in colours
     bool plain_back = false;   ///< back faces look as front faces do
     float contour_spacing = 0; ///< world; 0: no lines
+    float contour_end = 0;     ///< no lines beyond
 
     bool operator==(const SceneItem&) const = default;
 };

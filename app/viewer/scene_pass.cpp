@@ -15,7 +15,7 @@ constexpr uint32_t binding_count = 8;
 constexpr vk::ShaderStageFlags both = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 const glm::vec4 edge_colour(0.02F, 0.02F, 0.025F, 0.35F);
 
-static_assert(sizeof(shader::MeshParameters) == 96);
+static_assert(sizeof(shader::MeshParameters) == 100);
 static_assert(sizeof(RegionMark) == 8);
 
 GraphicsKind mesh_kind(Blending blending, vk::CullModeFlags cull) {
@@ -42,6 +42,7 @@ shader::MeshParameters parameters_of(const SceneItem& item, const Scene& scene, 
                        static_cast<uint32_t>(item.lights) * MESH_LIGHTS;
     parameters.point_count = item.region ? item.region->surface.point_count : 0;
     parameters.contour_spacing = item.contour_spacing;
+    parameters.contour_end = item.contour_end;
     parameters.orthographic = scene.orthographic ? 1.0F : 0.0F;
     return parameters;
 }

@@ -39,6 +39,8 @@ SceneItem Session::surface_item() const {
     surface.edges = view.edges;
     surface.tinted = view.tint;
     surface.contour_spacing = view.contours ? static_cast<float>(editor.radius / 10) : 0.0F;
+    // The line at the radius itself would be drawn in bits: no triangle there has an outer side.
+    surface.contour_end = 9.5F * surface.contour_spacing;
     return surface;
 }
 

@@ -27,7 +27,7 @@ vec3 base_colour() {
     if (has(MESH_TINTED)) {
         base = weight_colour(base, mark.x);
     }
-    if (has(MESH_CONTOURS) && mark.y >= 0.0) {
+    if (has(MESH_CONTOURS) && mark.y >= 0.0 && mark.y < parameters.contour_end) {
         base = mix(base, vec3(0.012), 0.7 * contour_cover(mark.y / parameters.contour_spacing));
     }
     return chosen > 0.0 ? hatched(base) : base;

@@ -17,15 +17,19 @@ layout(binding = 7, scalar) readonly buffer Selected { uint selected[]; };
 
 layout(location = 0) out vec3 view_position;
 layout(location = 1) out vec3 view_normal;
-layout(location = 2) out vec2 mark; // outside a region: no weight, negative distance
+layout(location = 2) out vec2 mark; // outside a region: no weight, distance `outside`
 layout(location = 3) out float chosen; // 1: selected
+
+// So far below zero that a triangle at a region's rim has no lines of equal distance: between a distance and
+// none there are no others.
+const float outside = -1e30;
 
 bool has(uint flag) { return (parameters.flags & flag) != 0u; }
 
 void main() {
     vec3 position = positions[gl_VertexIndex];
     vec3 normal = normals[gl_VertexIndex];
-    mark = vec2(0.0, -1.0);
+    mark = vec2(0.0, outside);
     chosen = has(MESH_SELECTION) ? float(selected[gl_VertexIndex]) : 0.0;
     if (has(MESH_HAS_REGION)) {
         uint slot = slots[gl_VertexIndex];
@@ -33,7 +37,7 @@ void main() {
             normal = region_normals[slot];
             if (slot < parameters.point_count) {
                 position = ends[slot];
-                mark = marks[slot];
+                mark = marks[slot].y >= 0.0 ? marks[slot] : vec2(marks[slot].x, outside);
             }
         }
     }

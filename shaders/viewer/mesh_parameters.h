@@ -18,6 +18,7 @@ struct MeshParameters {
     uint flags;
     uint point_count;      // entries of `ends`
     float contour_spacing; // world
+    float contour_end;     // no lines beyond
     float orthographic;    // 1: parallel view, 0: eye at the origin of view space
 };
 

@@ -6,15 +6,12 @@
 
 namespace anvil {
 
-void show_edit_list(Session& session) {
+void show_edit_list(Session& session, PanelColumn& column) {
     const DocumentState& document = session.shown().document;
     if (!document.recipe || document.recipe->edits.empty()) {
         return;
     }
-    ImGui::SetNextWindowPos(ImVec2(8, 30), ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSizeConstraints(ImVec2(side_width, 0),
-                                        ImVec2(side_width, ImGui::GetIO().DisplaySize.y));
-    ImGui::Begin("Edits", nullptr, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize);
+    column.begin("Edits");
     const double diagonal = std::max(session.bounds().diagonal(), 1e-30);
     for (size_t i = 0; i < document.recipe->edits.size(); ++i) {
         ImGui::PushID(static_cast<int>(i));
@@ -48,7 +45,7 @@ void show_edit_list(Session& session) {
         }
         ImGui::PopID();
     }
-    ImGui::End();
+    column.end();
 }
 
 } // namespace anvil

@@ -8,11 +8,8 @@
 
 namespace anvil {
 
-void EditPanel::show(Session& session) {
-    const ImVec2 window = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos(ImVec2(window.x - side_width - 8, 30), ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSizeConstraints(ImVec2(side_width, 0), ImVec2(side_width, window.y));
-    ImGui::Begin("Edit", nullptr, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize);
+void EditPanel::show(Session& session, PanelColumn& column) {
+    column.begin("Edit", 0.65F);
     Editor& editor = session.editor;
     constexpr std::array<std::pair<const char*, Tool>, 6> tools{{{"Move", Tool::move},
                                                                  {"Turn", Tool::turn},
@@ -58,7 +55,7 @@ void EditPanel::show(Session& session) {
             session.drop();
         }
     }
-    ImGui::End();
+    column.end();
 }
 
 } // namespace anvil

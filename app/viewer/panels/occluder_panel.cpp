@@ -120,14 +120,11 @@ void OccluderPanel::show_one(Session& session, size_t index) {
     ImGui::PopID();
 }
 
-void OccluderPanel::show(Session& session) {
+void OccluderPanel::show(Session& session, PanelColumn& column) {
     if (!session.shown().mesh) {
         return;
     }
-    const ImVec2 window = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos(ImVec2(window.x - side_width - 8, 0.47F * window.y), ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSizeConstraints(ImVec2(side_width, 0), ImVec2(side_width, 0.46F * window.y));
-    ImGui::Begin("Occluders", nullptr, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize);
+    column.begin("Occluders");
     ImGui::PushItemWidth(-110);
     add(session);
     const size_t count = session.shown().document.recipe->occluders.size();
@@ -144,7 +141,7 @@ void OccluderPanel::show(Session& session) {
         }
     }
     ImGui::PopItemWidth();
-    ImGui::End();
+    column.end();
 }
 
 } // namespace anvil

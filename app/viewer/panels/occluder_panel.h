@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/viewer/panels/curve_editor.h"
+#include "app/viewer/panels/panel_column.h"
 #include "app/viewer/session.h"
 
 namespace anvil {
@@ -9,7 +10,7 @@ namespace anvil {
 class OccluderPanel {
   public:
     /// A panel of its own, where something is open.
-    void show(Session& session);
+    void show(Session& session, PanelColumn& column);
 
   private:
     void add(Session& session);

@@ -9,9 +9,11 @@ namespace anvil {
 void Panels::show(Session& session, const FrameTimes& times) {
     show_menu(session, files);
     if (session.view.panels) {
-        edit_.show(session);
-        show_edit_list(session);
-        occluders_.show(session);
+        PanelColumn left(PanelColumn::Side::left);
+        show_edit_list(session, left);
+        PanelColumn right(PanelColumn::Side::right);
+        edit_.show(session, right);
+        occluders_.show(session, right);
     }
     show_status(session, times);
     show_notices(session);
