@@ -16,27 +16,28 @@ namespace k = kernel::f64;
 constexpr int most_levels = 5;
 constexpr int least_roots = 4; // along the longest side
 
-/// The box of bake() with at least its padding, in whole roots.
+/// The box of bake() with at least its padding, in whole roots; the finest samples are those of bake(), so
+/// that near the surface, where both err by more than what is rounded here, both err alike.
 BrickLayout layout(const Box& box, uint32_t resolution) {
     const VoxelGrid wanted = voxel_grid(box, resolution);
     BrickLayout result;
     result.voxel = wanted.voxel;
-    for (int i = 0; i < 3; ++i) {
-        const auto cells = static_cast<int>(wanted.size[i]) - 1;
-        result.grid[i] = (cells + brick_cells - 1) / brick_cells;
-    }
+    const glm::ivec3 cells(wanted.size[0] - 1, wanted.size[1] - 1, wanted.size[2] - 1);
+    result.grid = (cells + (brick_cells - 1)) / brick_cells;
     const int longest = std::max({result.grid.x, result.grid.y, result.grid.z});
     while (result.top_level < most_levels && longest >> (result.top_level + 1) >= least_roots) {
         ++result.top_level;
     }
     const int block = 1 << result.top_level;
     result.grid = (result.grid + (block - 1)) / block * block;
-    result.low = box.centre() - 0.5 * result.voxel * brick_cells * Vec3(result.grid);
+    const glm::ivec3 beyond = (result.grid * brick_cells - cells) / 2;
+    result.low = box.centre() - result.voxel * (0.5 * Vec3(cells) + Vec3(beyond));
     return result;
 }
 
-uint32_t signed_byte(double x) {
-    return static_cast<uint8_t>(static_cast<int8_t>(std::lround(std::clamp(x, -1.0, 1.0) * 127)));
+/// The lowest `bits` of a whole number, negative ones as their complement.
+uint32_t low_bits(double x, int bits) {
+    return static_cast<uint32_t>(std::lround(x)) & ((1U << bits) - 1);
 }
 
 /// Distance in its brick's unit, and the octahedral map of the normal: the sphere unfolded to a square.
@@ -49,8 +50,8 @@ uint32_t packed(const glm::vec4& sample, double unit) {
         n.y = (n.y < 0 ? -1 : 1) * (1 - std::abs(n.x));
         n.x = x;
     }
-    const auto distance = static_cast<uint16_t>(static_cast<int16_t>(std::lround(sample.w / unit)));
-    return distance | signed_byte(n.x) << 16 | signed_byte(n.y) << 24;
+    return low_bits(sample.w / unit, 12) | low_bits(n.x * k::BRICK_NORMALS, 10) << 12 |
+           low_bits(n.y * k::BRICK_NORMALS, 10) << 22;
 }
 
 std::vector<uint32_t> packed(const BrickTree& tree, const std::vector<uint32_t>& table) {
@@ -68,7 +69,7 @@ std::vector<uint32_t> packed(const BrickTree& tree, const std::vector<uint32_t>&
     }
     for (const Brick& brick : tree.bricks) {
         for (const glm::vec4& sample : brick.samples) {
-            words.push_back(packed(sample, (1 << brick.range) / 32767.0));
+            words.push_back(packed(sample, brick.unit()));
         }
     }
     return words;

@@ -14,7 +14,7 @@ namespace anvil {
 /// space: an octree of bricks over a box, flattened to a table at its finest level. The interpolation error
 /// is kept under adaptive_tolerance(), or the finest level's where that has more; near the surface this holds
 /// at all points of the finest grid, so that contact has one step width everywhere. Where levels meet, the
-/// finer brick's samples are the coarser one's interpolation: the field has no cracks but the rounding to 16
+/// finer brick's samples are the coarser one's interpolation: the field has no cracks but the rounding to 12
 /// bits.
 ///
 /// A sample (normal and distance) takes one word of 32 bits and is interpolated by the kernels themselves:

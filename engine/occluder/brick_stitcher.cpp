@@ -15,7 +15,7 @@ void round_as_stored(Brick& brick) {
     while (largest > static_cast<float>(1 << brick.range)) {
         ++brick.range;
     }
-    const double unit = (1 << brick.range) / 32767.0;
+    const double unit = brick.unit();
     for (glm::vec4& sample : brick.samples) {
         sample.w = static_cast<float>(std::round(sample.w / unit) * unit);
     }

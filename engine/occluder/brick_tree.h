@@ -33,8 +33,11 @@ struct Brick {
     CellIndex place{0}; ///< in bricks of its level
     int level = 0;
     uint8_t refined = 0;
-    int range = 0; ///< distances are stored in units of 2^range / 32767 voxels
+    int range = 0; ///< exponent of what distances are stored in units of
     BrickSamples samples;
+
+    /// What distances are stored in units of, in voxels.
+    double unit() const { return (1 << range) / kernel::f64::BRICK_DISTANCES; }
 
     /// Of the brick's low corner, in finest cells.
     CellIndex origin() const { return (place * brick_cells) << level; }

@@ -38,12 +38,15 @@ const uint MAX_VOLUMES = 8u;     // densely sampled fields of one edit
 // level in its box, x fastest, about the brick that holds this place: its level << BRICK_LEVEL_SHIFT, the
 // exponent e of its range << BRICK_RANGE_SHIFT, and in the low bits the word where its samples begin. A brick
 // of level l has BRICK_CELLS cells along each side, each 2^l voxels wide, and samples at their corners, x
-// fastest. In a sample the low 16 bits, signed, are the distance in units of 2^e / 32767 voxels; above them
-// are the outward normal's octahedral coordinates, two signed bytes in units of 1 / 127.
+// fastest. In a sample the low 12 bits, signed, are the distance in units of 2^e / BRICK_DISTANCES voxels;
+// above them are the outward normal's octahedral coordinates, 10 bits each, signed, in units of 1 /
+// BRICK_NORMALS.
 const uint BRICK_CELLS = 4u;
 const uint BRICK_SIDE = 5u; // samples
 const uint BRICK_RANGE_SHIFT = 25u;
 const uint BRICK_LEVEL_SHIFT = 29u;
+const real BRICK_DISTANCES = 2047.0;
+const real BRICK_NORMALS = 511.0;
 
 // A leaf or operator of an occluder. Leaf space: axes rows axis_x..z, `origin` and `scale` as seen from the
 // occluder's space. size: sphere (radius), box (half extents), cylinder, capsule, cone (radius, half height),

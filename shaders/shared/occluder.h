@@ -143,15 +143,17 @@ Probe volume_probe(uint volume, real3 p, real3 half_size) {
     return sampled_probe(volume_texel(volume, real(0.5) * (c / half_size) + real3(0.5)), p, c);
 }
 
-// A sample of an adaptive field: its normal (not of unit length) and the distance in its brick's unit.
+// A sample of an adaptive field: its normal and the distance in its brick's unit. The normal's length is one
+// to 7 %, by a line for the root: between normals of unequal lengths the longer one would count for more.
 real4 brick_sample(uint word) {
-    real x = real(int(word << 8u) >> 24) / 127.0;
-    real y = real(int(word) >> 24) / 127.0;
+    real x = real(int(word << 10u) >> 22) / BRICK_NORMALS;
+    real y = real(int(word) >> 22) / BRICK_NORMALS;
     real z = real(1.0) - abs(x) - abs(y);
     real fold = max(-z, real(0.0));
     x -= x < 0.0 ? -fold : fold;
     y -= y < 0.0 ? -fold : fold;
-    return real4(x, y, z, real(int(word << 16u) >> 16));
+    real unit = real(1.9535) - real(0.9982) * (x * x + y * y + z * z);
+    return real4(unit * x, unit * y, unit * z, real(int(word << 20u) >> 20));
 }
 
 // Samples at the ends of a cell's edge along x, from word `index` on, interpolated at t.
@@ -182,7 +184,7 @@ real4 brick_texel(ShapeNode node, real3 c) {
     real4 texel = brick_face(node, low, t);
     texel += t.z * (brick_face(node, low + BRICK_SIDE * BRICK_SIDE, t) - texel);
     uint exponent = (entry >> BRICK_RANGE_SHIFT) & ((1u << (BRICK_LEVEL_SHIFT - BRICK_RANGE_SHIFT)) - 1u);
-    texel.w *= node.extra * (real(1u << exponent) / 32767.0);
+    texel.w *= node.extra * (real(1u << exponent) / BRICK_DISTANCES);
     return texel;
 }
 

@@ -113,9 +113,9 @@ TEST_CASE("where bricks of different levels meet, a field has no crack") {
             between_levels += level_at(field, p) != level_at(field, other) ? 1 : 0;
             const double a = field.texel(p).w / field.voxel;
             const double b = field.texel(other).w / field.voxel;
-            // Both sides are rounded to 16 bits of at most twice the largest distance in the brick, which is
-            // its diagonal from the value here: with cells of up to 8 voxels 55.
-            CHECK(std::abs(a - b) <= 1e-8 + std::ldexp(2 * (std::abs(a) + 55), -15));
+            // Both sides are rounded to half a unit, the unit 1 / 2047 of at most twice the largest distance
+            // in the brick, which is its diagonal from the value here: with cells of up to 8 voxels 55.
+            CHECK(std::abs(a - b) <= 1e-8 + 2 * (std::abs(a) + 55) / kernel::f64::BRICK_DISTANCES);
         }
         CHECK(between_levels > 500);
     }
@@ -131,7 +131,7 @@ TEST_CASE("the normals of an adaptive field are those of the solid") {
         const SignedDistance truth = exact->at(p);
         if (std::abs(truth.distance) < 0.1) {
             const Vec3 n = glm::normalize(Vec3(field.texel(p)));
-            // Stored to 1/127, and turning by a cell of 2 voxels over a radius of 0.25 - 0.1.
+            // Stored to 1/511, and turning by a cell of 2 voxels over a radius of 0.25 - 0.1.
             CHECK(glm::length(n - truth.normal) < 0.01 + 2 * field.voxel / 0.15);
         }
     }
@@ -139,14 +139,58 @@ TEST_CASE("the normals of an adaptive field are those of the solid") {
 
 TEST_CASE("a sample's word gives back normal and distance as stored") {
     kernel::f64::OccluderKernel kernel;
+    const auto direction = [](const glm::dvec4& sample) { return glm::normalize(Vec3(sample)); };
     // Octahedral (-1, 0) is -x, and a corner of the square is -z.
-    const auto side = kernel.brick_sample(0x0081fffeU);
+    const auto side = kernel.brick_sample(0x201U << 12 | 0xffeU);
     CHECK(side.w == -2);
-    CHECK(glm::length(Vec3(side) - Vec3(-1, 0, 0)) < 1e-15);
-    const auto back = kernel.brick_sample(0x7f7f7fffU);
-    CHECK(back.w == 32767);
-    CHECK(glm::length(Vec3(back) - Vec3(0, 0, -1)) < 1e-15);
-    CHECK(kernel.brick_sample(0U) == glm::dvec4(0, 0, 1, 0));
+    CHECK(glm::length(direction(side) - Vec3(-1, 0, 0)) < 1e-15);
+    const auto back = kernel.brick_sample(0x1ffU << 22 | 0x1ffU << 12 | 0x7ffU);
+    CHECK(back.w == 2047);
+    CHECK(glm::length(direction(back) - Vec3(0, 0, -1)) < 1e-15);
+    CHECK(direction(kernel.brick_sample(0U)) == Vec3(0, 0, 1));
+    for (uint32_t word = 0; word < 1U << 20; word += 1021) {
+        const auto sample = kernel.brick_sample(word << 12);
+        CHECK(sample.w == 0);
+        CHECK(std::abs(glm::length(Vec3(sample)) - 1) < 0.07);
+    }
+}
+
+TEST_CASE("the finest samples of an adaptive field are those of a dense one") {
+    for (const OccluderShape& shape : {ball, ring, block}) {
+        for (const uint32_t resolution : {61, 64}) {
+            Progress progress;
+            const auto exact = exact_of(shape);
+            const AdaptiveField field = bake_adaptive(*exact, resolution, progress);
+            const DistanceVolume volume = bake(*exact, resolution, progress);
+            const Vec3 low = field.centre - field.half_size;
+            const Vec3 first = (volume.centre - volume.half_size - low) / field.voxel;
+            const CellIndex shift(glm::round(first));
+            CHECK(glm::length(first - Vec3(shift)) < 1e-9);
+            size_t compared = 0;
+            for (uint32_t z = 0; z < volume.size[2]; ++z) {
+                for (uint32_t y = 0; y < volume.size[1]; ++y) {
+                    for (uint32_t x = 0; x < volume.size[0]; ++x) {
+                        const CellIndex at = shift + CellIndex(x, y, z);
+                        const Vec3 p = low + field.voxel * Vec3(at);
+                        const bool on_face = at.x % 4 == 0 || at.y % 4 == 0 || at.z % 4 == 0; // stitched
+                        if (on_face || level_at(field, p) > 0) {
+                            continue;
+                        }
+                        ++compared;
+                        const float* texel = &volume.texels[volume.texel_index(x, y, z)];
+                        const glm::dvec4 found = field.texel(p);
+                        // Distances of up to 16 voxels are rounded to half a unit of 16/2047, normals to half
+                        // a unit of 1/511 in each coordinate of the square, which the map stretches by up to
+                        // 3 (the area of the sphere over that of the octahedron, at the middle of its faces).
+                        CHECK(std::abs(found.w - texel[3]) <= 8.0 / 2047 * field.voxel);
+                        const Vec3 normal(texel[0], texel[1], texel[2]);
+                        CHECK(glm::length(glm::normalize(Vec3(found)) - normal) < 3 * std::sqrt(0.5) / 511);
+                    }
+                }
+            }
+            CHECK(compared > 1000);
+        }
+    }
 }
 
 TEST_CASE("beyond its box an adaptive field bounds the distance from below and never lies about the side") {
