@@ -1,6 +1,6 @@
-// SearchTree::closest() for many queries at once.
+#include "engine/mesh/closest_points.h"
+
 #include "engine/mesh/leaf_views.h"
-#include "engine/mesh/search_tree.h"
 
 #include <bit>
 #include <cmath>
@@ -39,17 +39,33 @@ Real farther_than_plane(Real radius, Real distance) {
 /// E - D > radius |v - u| + radius^2 / (2 (D - radius)), and also if E - D > 2 radius.
 class ClosestPointSearch {
   public:
-    ClosestPointSearch(const SearchTree& tree, std::span<const Vec3> queries, std::span<ClosestPoint> found)
-        : tree_(tree), queries_(queries), found_(found) {
+    explicit ClosestPointSearch(const SearchTree& tree) : tree_(tree) {}
+
+    /// See ClosestPointTracer.
+    void enter(const Box& box) {
+        entered_ = !tree_.nodes_.empty() && !box.empty() && gather(box, most_leaves);
+        entered_box_ = box;
+    }
+
+    void run(std::span<const Vec3> queries, std::span<ClosestPoint> found) {
+        queries_ = queries;
+        found_ = found;
+        order_.clear();
         for (uint32_t i = 0; i < queries.size(); ++i) {
             found[i] = {};
-            if (is_finite(queries[i]) && !tree.nodes_.empty()) {
+            if (is_finite(queries[i]) && !tree_.nodes_.empty()) {
                 order_.push_back(i);
             }
         }
+        const Box box = box_of(order_);
+        if (entered_ && !order_.empty() && glm::all(glm::greaterThanEqual(box.low, entered_box_.low)) &&
+            glm::all(glm::lessThanEqual(box.high, entered_box_.high))) {
+            narrow(order_, box, whole_, 0);
+            return;
+        }
+        entered_ = false; // what follows gathers anew
+        open(order_);
     }
-
-    void run() { open(order_); }
 
   private:
     using Group = std::span<uint32_t>;  ///< queries
@@ -126,9 +142,7 @@ class ClosestPointSearch {
         const Box box = box_of(group);
         if (group.size() > alone) {
             if (gather(box, std::min(128 * group.size(), most_leaves))) {
-                List whole(leaves_.size());
-                std::iota(whole.begin(), whole.end(), 0U);
-                narrow(group, box, whole, 0);
+                narrow(group, box, whole_, 0);
                 return;
             }
             const Parts parts = split(group, box);
@@ -173,6 +187,8 @@ class ClosestPointSearch {
             const SearchTree::Leaf& leaf = tree_.leaves_[index];
             leaves_.push_back({glm::vec3(local(leaf.centre)), leaf.axes, leaf.half, index});
         }
+        whole_.resize(leaves_.size());
+        std::iota(whole_.begin(), whole_.end(), 0U);
         return true;
     }
 
@@ -349,11 +365,14 @@ class ClosestPointSearch {
     std::vector<uint32_t> order_;
     ClosestPoint last_;
     Vec3 last_query_{0};
+    bool entered_ = false; ///< what is gathered is good for entered_box_
+    Box entered_box_;
 
     Vec3 centre_{0};
     float blur_ = 0;             ///< what floats take off distances to boxes
     std::vector<uint32_t> near_; ///< leaves of the tree
     std::vector<NearLeaf> leaves_;
+    List whole_; ///< of all of them
     LeafViews views_;
     LaneFloats limits_{};     ///< of squared distances, of the queries being decided
     LaneFloats box_limits_{}; ///< and to boxes: (root of the limit + blur_)^2
@@ -361,8 +380,17 @@ class ClosestPointSearch {
     std::deque<std::array<List, lanes>> lists_; ///< of the parts, by depth
 };
 
-void SearchTree::closest(std::span<const Vec3> queries, std::span<ClosestPoint> found) const {
-    ClosestPointSearch(*this, queries, found).run();
+ClosestPointTracer::ClosestPointTracer(const SearchTree& tree)
+    : search_(std::make_unique<ClosestPointSearch>(tree)) {}
+
+ClosestPointTracer::~ClosestPointTracer() = default;
+
+void ClosestPointTracer::enter(const Box& box) {
+    search_->enter(box);
+}
+
+void ClosestPointTracer::closest(std::span<const Vec3> queries, std::span<ClosestPoint> found) {
+    search_->run(queries, found);
 }
 
 } // namespace anvil

@@ -34,11 +34,6 @@ class SearchTree {
     /// Nothing is found in an empty tree, beyond the distance, or for a query that is not finite.
     ClosestPoint closest(const Vec3& query, double max_distance = infinity) const;
 
-    /// The same for many queries at once, in any order, found[i] for queries[i]: at a tenth of the price
-    /// where they lie as close together as the samples of a field. Of equally near triangles it may be
-    /// another one.
-    void closest(std::span<const Vec3> queries, std::span<ClosestPoint> found) const;
-
     /// Where a ray from `origin` meets a triangle first, from either side; the result's distance is in
     /// lengths of `direction`. Nothing is found where it meets none.
     ClosestPoint first_hit(const Vec3& origin, const Vec3& direction) const;

@@ -8,7 +8,7 @@ namespace anvil {
 
 namespace {
 
-constexpr size_t families_at_once = 128;
+constexpr size_t clusters_at_once = 64;
 
 /// Where a brick is wanted, and whose octant that is.
 struct Wanted {
@@ -70,16 +70,16 @@ class BrickGrower {
             tree_.bricks[first_ + i].place = wanted_[i].place;
             tree_.bricks[first_ + i].level = level;
         }
-        const std::vector<size_t> families = family_begins();
-        const size_t count = families.size() - 1;
-        for (size_t begin = 0; begin < count; begin += families_at_once) {
+        const std::vector<size_t> clusters = cluster_begins();
+        const size_t count = clusters.size() - 1;
+        for (size_t begin = 0; begin < count; begin += clusters_at_once) {
             // Each level takes about four times as long as the one before.
             const double part = static_cast<double>(begin) / static_cast<double>(count);
             progress_.report("bake", std::pow(0.25, level) * (0.25 + 0.75 * part));
-            parallel_for(std::min(families_at_once, count - begin), 1, [&](size_t from, size_t to) {
+            parallel_for(std::min(clusters_at_once, count - begin), 1, [&](size_t from, size_t to) {
                 BrickSampler sampler(solid_, tree_.layout);
                 for (size_t i = begin + from; i < begin + to; ++i) {
-                    sample_family(sampler, families[i], families[i + 1]);
+                    sample_cluster(sampler, clusters[i], clusters[i + 1]);
                 }
             });
         }
@@ -96,11 +96,12 @@ class BrickGrower {
     }
 
   private:
-    /// Where in wanted_ the children of each parent begin, and the end; roots are alone.
-    std::vector<size_t> family_begins() const {
+    /// Where in wanted_ each cluster begins, and the end; roots are alone.
+    std::vector<size_t> cluster_begins() const {
         std::vector<size_t> begins;
         for (size_t i = 0; i < wanted_.size(); ++i) {
-            if (first_ == 0 || i == 0 || wanted_[i].parent != wanted_[i - 1].parent) {
+            if (first_ == 0 || i == 0 ||
+                !share_cluster(tree_.bricks[wanted_[i].parent], tree_.bricks[wanted_[i - 1].parent])) {
                 begins.push_back(i);
             }
         }
@@ -108,18 +109,20 @@ class BrickGrower {
         return begins;
     }
 
-    void sample_family(BrickSampler& sampler, size_t begin, size_t end) {
-        const bool root = first_ == 0;
+    void sample_cluster(BrickSampler& sampler, size_t begin, size_t end) {
         const std::span<Brick> children(&tree_.bricks[first_ + begin], end - begin);
-        const Brick& parent = tree_.bricks[root ? 0 : wanted_[begin].parent];
         const std::span<double> errors(&errors_[begin], children.size());
         const bool finest = children.front().level == 0;
-        if (root) {
-            sampler.sample(children.front());
+        std::vector<const Brick*> parents;
+        for (size_t i = begin; i < end; ++i) {
+            parents.push_back(&tree_.bricks[wanted_[i].parent]);
+        }
+        if (first_ == 0) {
+            sampler.sample_root(children.front());
         } else if (finest) {
-            sampler.sample_finest_children(parent, children, errors);
+            sampler.sample_finest_children({children, parents}, errors);
         } else {
-            sampler.sample_children(parent, children);
+            sampler.sample_children({children, parents});
         }
         if (!finest) {
             sampler.find_octants_to_refine(children);

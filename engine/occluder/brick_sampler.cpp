@@ -17,17 +17,17 @@ constexpr double surface_reach = 2;
 constexpr double beside_centre = 2;
 constexpr double beside_samples = 1.2;
 
-/// All of a parent's octants' samples are a lattice of this side.
-constexpr int family_side = 2 * brick_cells + 1;
+/// All samples of a cluster are a lattice of this side: four children's.
+constexpr int lattice_side = 4 * brick_cells + 1;
 
-constexpr int family_size = family_side * family_side * family_side;
+constexpr int lattice_size = lattice_side * lattice_side * lattice_side;
 
-int family_index(const CellIndex& place) {
-    return place.x + family_side * (place.y + family_side * place.z);
+int lattice_index(const CellIndex& place) {
+    return place.x + lattice_side * (place.y + lattice_side * place.z);
 }
 
-CellIndex family_place(int index) {
-    return {index % family_side, index / family_side % family_side, index / (family_side * family_side)};
+CellIndex lattice_place(int index) {
+    return {index % lattice_side, index / lattice_side % lattice_side, index / (lattice_side * lattice_side)};
 }
 
 int octant_of(const CellIndex& cell) {
@@ -56,30 +56,37 @@ Vec3 cells_at(const Brick& brick, const Vec3& within) {
     return Vec3(brick.origin()) + static_cast<double>(1 << brick.level) * within;
 }
 
-/// visit(index in the family's lattice, sample) for each sample of a child.
+} // namespace
+
+bool share_cluster(const Brick& parent, const Brick& other) {
+    return parent.level == other.level && parent.place >> 1 == other.place >> 1;
+}
+
 template <class AnyBrick, class Visit>
-void for_samples(const Brick& parent, AnyBrick& child, const Visit& visit) {
-    const CellIndex low = (child.place - parent.place * 2) * brick_cells;
+void BrickSampler::for_samples(AnyBrick& child, const Visit& visit) const {
+    const CellIndex low = (child.place - low_) * brick_cells;
     for (int i = 0; i < brick_samples; ++i) {
-        visit(family_index(low + sample_place(i)), child.samples[i]);
+        visit(lattice_index(low + sample_place(i)), child.samples[i]);
     }
 }
 
-/// visit(index in the family's lattice) for each of the child's samples in the middle of a parent's cell.
 template <class Visit>
-void for_centres(const Brick& parent, const Brick& child, const Visit& visit) {
-    for_samples(parent, child, [&](int at, const glm::vec4&) {
-        const CellIndex place = family_place(at);
+void BrickSampler::for_centres(const Brick& child, const Visit& visit) const {
+    for_samples(child, [&](int at, const glm::vec4&) {
+        const CellIndex place = lattice_place(at);
         if ((place.x & place.y & place.z & 1) != 0) {
             visit(at);
         }
     });
 }
 
-} // namespace
-
 Vec3 BrickSampler::point(const Brick& brick, const Vec3& within) const {
     return layout_.point(cells_at(brick, within));
+}
+
+/// Of a place in the lattice, in finest cells.
+Vec3 BrickSampler::lattice_cells(int at) const {
+    return Vec3((low_ * brick_cells + lattice_place(at)) << level_);
 }
 
 glm::vec4 BrickSampler::found_sample(size_t i) const {
@@ -88,10 +95,11 @@ glm::vec4 BrickSampler::found_sample(size_t i) const {
 
 void BrickSampler::trace() {
     found_.resize(points_.size());
-    solid_.trace(points_, found_);
+    tracer_->trace(points_, found_);
 }
 
-void BrickSampler::sample(Brick& brick) {
+void BrickSampler::sample_root(Brick& brick) {
+    tracer_->enter({point(brick, Vec3(0)), point(brick, Vec3(brick_cells))});
     points_.clear();
     for (int i = 0; i < brick_samples; ++i) {
         points_.push_back(point(brick, Vec3(sample_place(i))));
@@ -102,25 +110,41 @@ void BrickSampler::sample(Brick& brick) {
     }
 }
 
-void BrickSampler::begin_family(const Brick& parent) {
-    lattice_.resize(family_size);
-    known_.assign(family_size, false);
-    for (int i = 0; i < brick_samples; ++i) {
-        const int at = family_index(2 * sample_place(i));
-        lattice_[at] = parent.samples[i];
-        known_[at] = true;
+void BrickSampler::begin(const Cluster& cluster) {
+    low_ = cluster.parents.front()->place >> 1 << 2;
+    level_ = cluster.children.front().level;
+    Box box;
+    for (const Brick& child : cluster.children) {
+        box.include(point(child, Vec3(0)));
+        box.include(point(child, Vec3(brick_cells)));
+    }
+    tracer_->enter(box);
+    lattice_.resize(lattice_size);
+    known_.assign(lattice_size, false);
+    const Brick* last = nullptr;
+    for (const Brick* parent : cluster.parents) {
+        if (parent == last) {
+            continue;
+        }
+        last = parent;
+        const CellIndex low = (parent->place * 2 - low_) * brick_cells;
+        for (int i = 0; i < brick_samples; ++i) {
+            const int at = lattice_index(low + 2 * sample_place(i));
+            lattice_[at] = parent->samples[i];
+            known_[at] = true;
+        }
     }
 }
 
-/// What of these places in the family's lattice is not known yet.
-void BrickSampler::sample_lattice(const Brick& parent, std::span<const int> places) {
+/// What of these places in the lattice is not known yet.
+void BrickSampler::sample_lattice(std::span<const int> places) {
     points_.clear();
     std::vector<int> open;
     for (const int at : places) {
         if (!known_[at]) {
             known_[at] = true;
             open.push_back(at);
-            points_.push_back(point(parent, 0.5 * Vec3(family_place(at))));
+            points_.push_back(layout_.point(lattice_cells(at)));
         }
     }
     trace();
@@ -129,25 +153,24 @@ void BrickSampler::sample_lattice(const Brick& parent, std::span<const int> plac
     }
 }
 
-void BrickSampler::sample_children(const Brick& parent, std::span<Brick> children) {
-    begin_family(parent);
-    finish_children(parent, children, {});
+void BrickSampler::sample_children(const Cluster& cluster) {
+    begin(cluster);
+    finish(cluster, {});
 }
 
-void BrickSampler::sample_finest_children(const Brick& parent, std::span<Brick> children,
-                                          std::span<double> errors) {
-    begin_family(parent);
+void BrickSampler::sample_finest_children(const Cluster& cluster, std::span<double> errors) {
+    begin(cluster);
     std::vector<int> centres;
-    for (const Brick& child : children) {
-        for_centres(parent, child, [&](int at) { centres.push_back(at); });
+    for (const Brick& child : cluster.children) {
+        for_centres(child, [&](int at) { centres.push_back(at); });
     }
-    sample_lattice(parent, centres);
-    for (size_t i = 0; i < children.size(); ++i) {
-        errors[i] = spares_centres(parent, children[i]) ? -1 : 0;
+    sample_lattice(centres);
+    for (size_t i = 0; i < cluster.children.size(); ++i) {
+        errors[i] = spares_centres(*cluster.parents[i], cluster.children[i]) ? -1 : 0;
     }
-    finish_children(parent, children, errors);
-    for (size_t i = 0; i < children.size(); ++i) {
-        if (errors[i] == 0 && spares(parent, children[i])) {
+    finish(cluster, errors);
+    for (size_t i = 0; i < cluster.children.size(); ++i) {
+        if (errors[i] == 0 && spares(*cluster.parents[i], cluster.children[i])) {
             errors[i] = -1;
         }
     }
@@ -156,32 +179,25 @@ void BrickSampler::sample_finest_children(const Brick& parent, std::span<Brick> 
 /// Whether the parent interpolates well enough in the middle of its own cells, where it is off most.
 bool BrickSampler::spares_centres(const Brick& parent, const Brick& child) const {
     bool good = true;
-    for_centres(parent, child, [&](int at) {
+    for_centres(child, [&](int at) {
         const double distance = lattice_[at].w;
-        const double other = parent.interpolated(cells_at(parent, 0.5 * Vec3(family_place(at)))).w;
+        const double other = parent.interpolated(lattice_cells(at)).w;
         good = good && beside_centre * std::abs(other - distance) <= adaptive_tolerance(distance);
     });
     return good;
 }
 
 /// Those without a negative error.
-void BrickSampler::finish_children(const Brick& parent, std::span<Brick> children,
-                                   std::span<const double> errors) {
-    std::vector<bool> wanted(family_size, false);
-    for (size_t i = 0; i < children.size(); ++i) {
-        if (errors.empty() || errors[i] >= 0) {
-            for_samples(parent, children[i], [&](int at, const glm::vec4&) { wanted[at] = true; });
-        }
-    }
+void BrickSampler::finish(const Cluster& cluster, std::span<const double> errors) {
     std::vector<int> places;
-    for (int at = 0; at < family_size; ++at) {
-        if (wanted[at]) {
-            places.push_back(at);
+    for (size_t i = 0; i < cluster.children.size(); ++i) {
+        if (errors.empty() || errors[i] >= 0) {
+            for_samples(cluster.children[i], [&](int at, const glm::vec4&) { places.push_back(at); });
         }
     }
-    sample_lattice(parent, places);
-    for (Brick& child : children) {
-        for_samples(parent, child, [&](int at, glm::vec4& sample) { sample = lattice_[at]; });
+    sample_lattice(places);
+    for (Brick& child : cluster.children) {
+        for_samples(child, [&](int at, glm::vec4& sample) { sample = lattice_[at]; });
     }
 }
 

@@ -50,7 +50,7 @@ void fill_block(DistanceVolume& volume, const ExactDistance& solid, size_t x0, s
     each_place(x0, y0, z0, size,
                [&](size_t x, size_t y, size_t z) { points.push_back(voxel_centre(volume, Vec3(x, y, z))); });
     std::vector<SignedDistance> found(points.size());
-    solid.trace(points, found);
+    solid.tracer()->trace(points, found);
     auto next = found.begin();
     each_place(x0, y0, z0, size, [&](size_t x, size_t y, size_t z) {
         float* texel = &volume.texels[volume.texel_index(x, y, z)];
@@ -75,7 +75,7 @@ double block_error(const DistanceVolume& volume, const ExactDistance& solid, siz
         }
     });
     std::vector<SignedDistance> found(points.size());
-    solid.trace(points, found);
+    solid.tracer()->trace(points, found);
     double worst = 0;
     for (size_t i = 0; i < points.size(); ++i) {
         worst = std::max(worst, std::abs(interpolated[i] - found[i].distance));

@@ -6,7 +6,6 @@
 #include "engine/mesh/mesh.h"
 #include "engine/occluder/kernel_types.h"
 
-#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -18,16 +17,24 @@ struct SignedDistance {
     Vec3 normal;     ///< outward unit normal: from the closest surface point, or towards it when inside
 };
 
+/// Asks a solid for the distances of many points of one box after another, on one thread.
+class DistanceTracer {
+  public:
+    virtual ~DistanceTracer() = default;
+    /// What follows, up to the next box, is quicker within this one.
+    virtual void enter(const Box&) {}
+    /// Of the same number as `found`; quick where each is near the one before.
+    virtual void trace(std::span<const Vec3> points, std::span<SignedDistance> found) = 0;
+};
+
 /// Thread-safe; built once. Whatever can be asked for signed distances is baked, finished and probed through
 /// this alone.
 class ExactDistance {
   public:
     virtual ~ExactDistance() = default;
     virtual SignedDistance at(const Vec3& p) const = 0;
-    /// The same at many points, of the same number as `found`; quick where each is near the one before.
-    virtual void trace(std::span<const Vec3> points, std::span<SignedDistance> found) const {
-        std::transform(points.begin(), points.end(), found.begin(), [this](const Vec3& p) { return at(p); });
-    }
+    /// Which the solid outlives.
+    virtual std::unique_ptr<DistanceTracer> tracer() const;
     /// Box of the solid; infinite for unbounded shapes.
     virtual Box bounds() const = 0;
 };

@@ -1,7 +1,7 @@
 #include "engine/occluder/mesh_distance.h"
 
 #include "engine/core/error.h"
-#include "engine/mesh/search_tree.h"
+#include "engine/mesh/closest_points.h"
 #include "engine/occluder/solid_warnings.h"
 #include "engine/occluder/surface_sides.h"
 #include "engine/occluder/winding_number.h"
@@ -26,19 +26,33 @@ class MeshDistance final : public ExactDistance {
 
     SignedDistance at(const Vec3& p) const override { return signed_distance(p, tree_.closest(p)); }
 
-    void trace(std::span<const Vec3> points, std::span<SignedDistance> found) const override {
-        std::vector<ClosestPoint> closest(points.size());
-        tree_.closest(points, closest);
-        for (size_t i = 0; i < points.size(); ++i) {
-            found[i] = signed_distance(points[i], closest[i]);
-        }
-    }
+    std::unique_ptr<DistanceTracer> tracer() const override { return std::make_unique<Tracer>(*this); }
 
     Box bounds() const override { return bounds_; }
 
     size_t crossing_triangles() const { return sides_.crossing_triangles(); }
 
   private:
+    class Tracer final : public DistanceTracer {
+      public:
+        explicit Tracer(const MeshDistance& solid) : solid_(solid), nearest_(solid.tree_) {}
+
+        void enter(const Box& box) override { nearest_.enter(box); }
+
+        void trace(std::span<const Vec3> points, std::span<SignedDistance> found) override {
+            closest_.resize(points.size());
+            nearest_.closest(points, closest_);
+            for (size_t i = 0; i < points.size(); ++i) {
+                found[i] = solid_.signed_distance(points[i], closest_[i]);
+            }
+        }
+
+      private:
+        const MeshDistance& solid_;
+        ClosestPointTracer nearest_;
+        std::vector<ClosestPoint> closest_;
+    };
+
     SignedDistance signed_distance(const Vec3& p, const ClosestPoint& closest) const {
         const Vec3 arm = p - closest.position;
         if (closest.distance > 1e-9 * bounds_.diagonal()) {

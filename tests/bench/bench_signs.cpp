@@ -27,7 +27,7 @@ struct Samples {
 std::vector<SignedDistance> traced(const ExactDistance& exact, const std::vector<Vec3>& points) {
     std::vector<SignedDistance> found(points.size());
     parallel_for(points.size(), 512, [&](size_t i, size_t end) {
-        exact.trace({&points[i], end - i}, {&found[i], end - i});
+        exact.tracer()->trace({&points[i], end - i}, {&found[i], end - i});
     });
     return found;
 }

@@ -1,5 +1,5 @@
+#include "engine/mesh/closest_points.h"
 #include "engine/mesh/sample_shapes.h"
-#include "engine/mesh/search_tree.h"
 
 #include <catch2/catch.hpp>
 #include <random>
@@ -76,7 +76,7 @@ double brute_force(const Soup& soup, const Vec3& p) {
 void check_found(const Soup& soup, const std::vector<Vec3>& queries) {
     const SearchTree tree(soup.positions, soup.triangles);
     std::vector<ClosestPoint> found(queries.size());
-    tree.closest(queries, found);
+    ClosestPointTracer(tree).closest(queries, found);
     size_t wrong = 0;
     size_t off = 0;
     for (size_t i = 0; i < queries.size(); ++i) {
@@ -160,12 +160,12 @@ TEST_CASE(
     queries[7].x = infinity;
     queries[9].y = std::numeric_limits<double>::quiet_NaN();
     std::vector<ClosestPoint> found(queries.size());
-    tree.closest(queries, found);
+    ClosestPointTracer(tree).closest(queries, found);
     for (size_t i = 0; i < queries.size(); ++i) {
         CHECK(found[i].found() == (i != 7 && i != 9));
     }
     const SearchTree empty({}, {});
-    empty.closest(queries, found);
+    ClosestPointTracer(empty).closest(queries, found);
     for (const ClosestPoint& point : found) {
         CHECK_FALSE(point.found());
     }

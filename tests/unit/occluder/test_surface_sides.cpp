@@ -171,7 +171,7 @@ TEST_CASE("distances traced along a path are those asked one by one") {
         }
     }
     std::vector<SignedDistance> traced(points.size());
-    solid->trace(points, traced);
+    solid->tracer()->trace(points, traced);
     for (size_t i = 0; i < points.size(); ++i) {
         CHECK(traced[i].distance == solid->at(points[i]).distance);
     }
