@@ -7,6 +7,15 @@
 #include <span>
 #include <vector>
 
+// Compiled for AVX2 too, which the program picks where the processor has it, with the same results to the
+// bit. Sanitizers are not ready yet when that is picked.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&     \
+    !defined(__SANITIZE_THREAD__)
+#define ANVIL_FOR_PROCESSOR __attribute__((flatten, target_clones("avx2", "default")))
+#else
+#define ANVIL_FOR_PROCESSOR
+#endif
+
 namespace anvil {
 
 inline constexpr size_t lanes = 8;

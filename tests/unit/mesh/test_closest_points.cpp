@@ -72,24 +72,47 @@ double brute_force(const Soup& soup, const Vec3& p) {
     return least;
 }
 
-/// Distances are those of all triangles looked at one by one; what is found is a point of its triangle.
-void check_found(const Soup& soup, const std::vector<Vec3>& queries) {
-    const SearchTree tree(soup.positions, soup.triangles);
-    std::vector<ClosestPoint> found(queries.size());
-    ClosestPointTracer(tree).closest(queries, found);
+/// A found distance is that of all triangles looked at one by one; what is found is a point of its triangle.
+void check_found(const Soup& soup, const std::vector<Vec3>& queries, const std::vector<double>& truth,
+                 const std::vector<ClosestPoint>& found) {
     size_t wrong = 0;
     size_t off = 0;
     for (size_t i = 0; i < queries.size(); ++i) {
-        const double truth = brute_force(soup, queries[i]);
-        wrong += found[i].distance == truth ? 0 : 1;
+        wrong += found[i].distance == truth[i] ? 0 : 1;
         const auto& [a, b, c] = soup.triangles[found[i].triangle];
         const Vec3& w = found[i].barycentric;
         const Vec3 there = w.x * soup.positions[a] + w.y * soup.positions[b] + w.z * soup.positions[c];
-        const double size = glm::length(soup.positions[a]) + glm::length(queries[i]) + truth;
+        const double size = glm::length(soup.positions[a]) + glm::length(queries[i]) + truth[i];
         off += glm::length(there - found[i].position) <= 1e-14 * size ? 0 : 1;
     }
     CHECK(wrong == 0);
     CHECK(off == 0);
+}
+
+/// Without a box, and in halves within one that holds all queries, then with one that does not.
+void check_found(const Soup& soup, const std::vector<Vec3>& queries) {
+    const SearchTree tree(soup.positions, soup.triangles);
+    std::vector<double> truth;
+    Box box;
+    for (const Vec3& q : queries) {
+        truth.push_back(brute_force(soup, q));
+        box.include(q);
+    }
+    ClosestPointTracer tracer(tree);
+    std::vector<ClosestPoint> found(queries.size());
+    tracer.closest(queries, found);
+    check_found(soup, queries, truth, found);
+    tracer.enter(box);
+    const std::span<const Vec3> all(queries);
+    const std::span<ClosestPoint> places(found);
+    const size_t half = queries.size() / 2;
+    for (int part = 0; part < 2; ++part) {
+        std::fill(found.begin(), found.end(), ClosestPoint{});
+        tracer.closest(all.first(half), places.first(half));
+        tracer.closest(all.subspan(half), places.subspan(half));
+        check_found(soup, queries, truth, found);
+        tracer.enter({box.low, 0.5 * (box.low + box.high)});
+    }
 }
 
 } // namespace
