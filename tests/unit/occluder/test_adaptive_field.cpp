@@ -156,6 +156,7 @@ TEST_CASE("a sample's word gives back normal and distance as stored") {
 }
 
 TEST_CASE("the finest samples of an adaptive field are those of a dense one") {
+    size_t compared = 0;
     for (const OccluderShape& shape : {ball, ring, block}) {
         for (const uint32_t resolution : {61, 64}) {
             Progress progress;
@@ -166,7 +167,6 @@ TEST_CASE("the finest samples of an adaptive field are those of a dense one") {
             const Vec3 first = (volume.centre - volume.half_size - low) / field.voxel;
             const CellIndex shift(glm::round(first));
             CHECK(glm::length(first - Vec3(shift)) < 1e-9);
-            size_t compared = 0;
             for (uint32_t z = 0; z < volume.size[2]; ++z) {
                 for (uint32_t y = 0; y < volume.size[1]; ++y) {
                     for (uint32_t x = 0; x < volume.size[0]; ++x) {
@@ -179,18 +179,19 @@ TEST_CASE("the finest samples of an adaptive field are those of a dense one") {
                         ++compared;
                         const float* texel = &volume.texels[volume.texel_index(x, y, z)];
                         const glm::dvec4 found = field.texel(p);
-                        // Distances of up to 16 voxels are rounded to half a unit of 16/2047, normals to half
-                        // a unit of 1/511 in each coordinate of the square, which the map stretches by up to
-                        // 3 (the area of the sphere over that of the octahedron, at the middle of its faces).
-                        CHECK(std::abs(found.w - texel[3]) <= 8.0 / 2047 * field.voxel);
+                        // Distances are rounded to half a unit, 1/2047 of at most the brick's largest
+                        // distance, which is its diagonal from this one; normals to half a unit of 1/511 in
+                        // each coordinate of the square, which the map to the sphere stretches by up to 3.
+                        const double largest = std::abs(texel[3]) + std::sqrt(3.0) * 4 * field.voxel;
+                        CHECK(std::abs(found.w - texel[3]) <= largest / 2047);
                         const Vec3 normal(texel[0], texel[1], texel[2]);
                         CHECK(glm::length(glm::normalize(Vec3(found)) - normal) < 3 * std::sqrt(0.5) / 511);
                     }
                 }
             }
-            CHECK(compared > 1000);
         }
     }
+    CHECK(compared > 1000);
 }
 
 TEST_CASE("beyond its box an adaptive field bounds the distance from below and never lies about the side") {
@@ -227,10 +228,12 @@ TEST_CASE("an edit against an adaptive field ends where it ends against a dense 
     for (const InfluenceKind influence : {InfluenceKind::hard, InfluenceKind::soft}) {
         std::vector<std::vector<Vec3>> ends;
         double voxel = 0;
+        double sigma = 0;
         for (const FieldKind kind : {FieldKind::dense, FieldKind::adaptive}) {
             scene.occluders = {{ring, {kind, 128}, {}, {influence, 0.9, {}, {}, 0}}};
             const test::SceneResult result = test::run_scene(scene, *make_cpu_backend(), true);
             voxel = 2 * result.input.occluders.occluders[0].step;
+            sigma = result.input.occluders.occluders[0].width;
             ends.push_back(result.ends);
             for (const Vec3& end : result.ends) {
                 CHECK(exact->at(end).distance >= -1e-6 * 2);
@@ -241,9 +244,11 @@ TEST_CASE("an edit against an adaptive field ends where it ends against a dense 
             differences.push_back(glm::length(ends[0][i] - ends[1][i]) / voxel);
         }
         std::sort(differences.begin(), differences.end());
-        // The fields differ by their tolerance; what slides far or past a ridge multiplies that.
+        // Near the surface the fields differ by rounding alone; soft influence looks farther, as far as the
+        // tolerance is larger. What slides far or past a ridge multiplies that: the last few per cent.
+        const double reach = influence == InfluenceKind::soft ? kernel::f64::SOFT_REACH * sigma / voxel : 0;
         CHECK(differences[differences.size() / 2] < adaptive_tolerance(0));
-        CHECK(differences[differences.size() * 95 / 100] < 0.5);
+        CHECK(differences[differences.size() * 97 / 100] < adaptive_tolerance(reach));
     }
 }
 
