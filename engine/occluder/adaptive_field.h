@@ -28,7 +28,8 @@ struct AdaptiveField {
     double error = 0;            ///< largest |interpolated - exact| seen near the surface, at most voxel / 4
     std::vector<uint32_t> words; ///< table and samples, see shaders/shared/kernel_types.h
 
-    /// Interpolated (normal, distance) at a point of the box, as kernels compute it.
+    /// Interpolated (normal, distance) at a point of the box, as kernels compute it: the normal of any
+    /// length.
     glm::dvec4 texel(const Vec3& p) const;
     size_t bytes() const { return words.size() * sizeof(uint32_t); }
 };

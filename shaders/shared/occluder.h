@@ -143,16 +143,17 @@ Probe volume_probe(uint volume, real3 p, real3 half_size) {
     return sampled_probe(volume_texel(volume, real(0.5) * (c / half_size) + real3(0.5)), p, c);
 }
 
-// A sample of an adaptive field: its normal and the distance in its brick's unit. The normal's length is one
-// to 7 %, by a line for the root: between normals of unequal lengths the longer one would count for more.
+// A sample of an adaptive field: its normal and the distance in its brick's unit. The normal's length is
+// BRICK_NORMALS to 7 %, by a line for the root: between normals of unequal lengths the longer one would count
+// for more.
 real4 brick_sample(uint word) {
-    real x = real(int(word << 10u) >> 22) / BRICK_NORMALS;
-    real y = real(int(word) >> 22) / BRICK_NORMALS;
-    real z = real(1.0) - abs(x) - abs(y);
+    real x = real(int(word << 10u) >> 22);
+    real y = real(int(word) >> 22);
+    real z = BRICK_NORMALS - abs(x) - abs(y);
     real fold = max(-z, real(0.0));
     x -= x < 0.0 ? -fold : fold;
     y -= y < 0.0 ? -fold : fold;
-    real unit = real(1.9535) - real(0.9982) * (x * x + y * y + z * z);
+    real unit = real(1.9535) - real(0.9982) / (BRICK_NORMALS * BRICK_NORMALS) * (x * x + y * y + z * z);
     return real4(unit * x, unit * y, unit * z, real(int(word << 20u) >> 20));
 }
 
