@@ -1,6 +1,7 @@
 #include "engine/document/version_store.h"
 
 #include "engine/core/error.h"
+#include "engine/document/surface_difference.h"
 
 #include <algorithm>
 #include <set>
@@ -39,10 +40,12 @@ struct VersionStore::Place {
     std::shared_ptr<Place> before; ///< empty: the file's mesh
     EditContent content;
     std::shared_ptr<const SurfaceVersion> version; ///< empty: to be made (again)
-    std::string maker;                             ///< of the version
+    std::optional<SurfaceDifference> change;       ///< that makes it of the surface before it
+    std::string maker;                             ///< of both
     uint64_t used = 0;
 
     bool made_by(const std::string& back_end) const { return version && (!before || maker == back_end); }
+    bool changed_by(const std::string& back_end) const { return change && maker == back_end; }
 };
 
 VersionStore::VersionStore(std::shared_ptr<const Mesh> file, size_t budget)
@@ -88,26 +91,60 @@ std::shared_ptr<const SurfaceVersion> VersionStore::version(const Chain& chain, 
                                                             const EditOccluders& occluders,
                                                             const EditWork& work) {
     const std::string maker = maker_of(work.backend);
+    if (!chain[index]->made_by(maker) && take_back_to(chain[index], maker)) {
+        return chain[index]->version;
+    }
     size_t first = index;
     while (!chain[first]->made_by(maker)) {
         --first;
     }
-    const EditTools tools{occluders, solvers_, work.backend, work.log, work.progress};
     chain[first]->used = ++clock_;
-    std::shared_ptr<const SurfaceVersion> version = chain[first]->version;
+    if (first == index) {
+        return chain[index]->version;
+    }
+    const EditTools tools{occluders, solvers_, work.backend, work.log, work.progress};
+    SurfaceVersion version = *chain[first]->version;
     for (size_t i = first; i < index; ++i) {
         work.progress.report("forge", static_cast<double>(i - first) / static_cast<double>(index - first));
         Place& place = *chain[i + 1];
-        version = std::make_shared<const SurfaceVersion>(
-            apply_edit(*version, place.content.edit, "edits[" + std::to_string(i) + "]", tools));
-        ++edits_applied_;
-        place.version = version;
-        place.maker = maker;
+        if (place.changed_by(maker)) {
+            apply(*place.change, version);
+        } else {
+            SurfaceVersion after =
+                apply_edit(version, place.content.edit, "edits[" + std::to_string(i) + "]", tools);
+            ++edits_applied_;
+            place.version.reset();
+            place.change = difference(version, after);
+            place.maker = maker;
+            version = std::move(after);
+        }
         place.used = ++clock_;
+        if (i + 1 == index || !place.change) {
+            place.version = std::make_shared<const SurfaceVersion>(version);
+        }
         keep_within_budget(place);
     }
     work.progress.report("forge", 1);
-    return version;
+    return chain[index]->version;
+}
+
+/// What undoing asks for: it costs the one edit, however many there are before.
+bool VersionStore::take_back_to(const std::shared_ptr<Place>& place, const std::string& maker) {
+    for (const auto& next : live()) {
+        if (next->before == place && next->made_by(maker) && next->change) {
+            SurfaceVersion version = *next->version;
+            take_back(*next->change, version);
+            if (place->maker != maker) {
+                place->change.reset();
+            }
+            place->version = std::make_shared<const SurfaceVersion>(std::move(version));
+            place->maker = maker;
+            place->used = ++clock_;
+            keep_within_budget(*place);
+            return true;
+        }
+    }
+    return false;
 }
 
 std::shared_ptr<const SurfaceVersion> VersionStore::version_at_hand(const Chain& chain, size_t index) {
@@ -117,31 +154,48 @@ std::shared_ptr<const SurfaceVersion> VersionStore::version_at_hand(const Chain&
 size_t VersionStore::bytes() const {
     size_t sum = 0;
     std::set<const Mesh*> meshes;
-    for (const auto& place : live()) {
-        if (!place->version) {
-            continue;
+    const auto add_mesh = [&](const SurfaceVersion& surface) {
+        if (surface.refined() && meshes.insert(surface.mesh.get()).second) {
+            sum += mesh_bytes(surface);
         }
-        sum += own_bytes(*place->version);
-        if (place->version->refined() && meshes.insert(place->version->mesh.get()).second) {
-            sum += mesh_bytes(*place->version);
+    };
+    for (const auto& place : live()) {
+        if (place->version) {
+            sum += own_bytes(*place->version);
+            add_mesh(*place->version);
+        }
+        if (place->change) {
+            sum += own_bytes(*place->change);
+            add_mesh(*place->change->after);
         }
     }
     return sum;
 }
 
+std::shared_ptr<VersionStore::Place> VersionStore::oldest(const Place& pinned,
+                                                          bool can_be_put_together) const {
+    std::shared_ptr<Place> found;
+    for (const auto& place : live()) {
+        const bool holds =
+            can_be_put_together ? place->version && place->change : place->version || place->change;
+        const bool may_go = holds && place->before && place.get() != &pinned;
+        if (may_go && (!found || place->used < found->used)) {
+            found = place;
+        }
+    }
+    return found;
+}
+
 void VersionStore::keep_within_budget(const Place& pinned) {
     while (bytes() > budget_) {
-        std::shared_ptr<Place> oldest;
-        for (const auto& place : live()) {
-            const bool may_go = place->version && place->before && place.get() != &pinned;
-            if (may_go && (!oldest || place->used < oldest->used)) {
-                oldest = place;
-            }
-        }
-        if (!oldest) {
+        if (const auto whole = oldest(pinned, true)) {
+            whole->version.reset();
+        } else if (const auto any = oldest(pinned, false)) {
+            any->version.reset();
+            any->change.reset();
+        } else {
             return;
         }
-        oldest->version.reset();
     }
 }
 

@@ -25,16 +25,18 @@ class VersionStore {
     /// The file's mesh, then the surface after each edit.
     using Chain = std::vector<std::shared_ptr<Place>>;
 
-    /// `budget`, bytes: surfaces that were not used for longest are let go of beyond it, and made again when
-    /// they are asked for; that of the file and the one last asked for stay.
+    /// `budget`, bytes: beyond it, surfaces that were not used for longest shrink to what their edit changed,
+    /// from which they are put together; if that is too much as well, it is let go of, and the edit is
+    /// applied again. The surface of the file and the one last asked for stay.
     VersionStore(std::shared_ptr<const Mesh> file, size_t budget);
 
     /// The places of a recipe's edits. Edits that say the same, with the same occluders in the same poses,
     /// after the same edits, are one place.
     Chain chain_of(const Recipe& recipe);
 
-    /// The surface at chain[index], made from the nearest one before it that is there and that the same back
-    /// end made. The chain is that of the recipe that the occluders are of.
+    /// The surface at chain[index], made from one after it that is there, or else from the nearest one before
+    /// it that is there as a whole and that the same back end made. The chain is that of the recipe that the
+    /// occluders are of.
     /// @throws InputError, DeviceError, Cancelled as apply_edit() does.
     std::shared_ptr<const SurfaceVersion> version(const Chain& chain, size_t index,
                                                   const EditOccluders& occluders, const EditWork& work);
@@ -53,7 +55,9 @@ class VersionStore {
 
   private:
     std::vector<std::shared_ptr<Place>> live() const;
+    bool take_back_to(const std::shared_ptr<Place>& place, const std::string& maker);
     void keep_within_budget(const Place& pinned);
+    std::shared_ptr<Place> oldest(const Place& pinned, bool can_be_put_together) const;
 
     std::shared_ptr<Place> file_;
     std::vector<std::weak_ptr<Place>> places_;
