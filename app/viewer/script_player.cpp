@@ -41,6 +41,7 @@ ScriptPlayer::ScriptPlayer(const std::filesystem::path& file)
     : file_(file.string()), lines_(read_script(file)) {}
 
 std::vector<InputEvent> ScriptPlayer::next(Session& session, Window& window) {
+    frames_.frame();
     if (!events_.empty()) {
         const InputEvent event = events_.front();
         events_.pop_front();
@@ -171,6 +172,8 @@ void ScriptPlayer::act(const ScriptLine& line, Session& session, Window& window)
         session.change(next, "change of an edit", "edit " + with[0]);
     } else if (line.word == "expect") {
         expect(line, session);
+    } else if (line.word == "frames") {
+        std::cout << with[0] << ": " << frames_.report() << std::endl;
     } else if (play_view_word(line, session)) {
         return;
     } else if (line.word == "say") {

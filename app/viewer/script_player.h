@@ -1,6 +1,7 @@
 // Plays a script to a session, some of it each frame, as a person would.
 #pragma once
 
+#include "app/viewer/frame_log.h"
 #include "app/viewer/script.h"
 #include "app/viewer/session.h"
 #include "app/viewer/window.h"
@@ -20,6 +21,8 @@ class ScriptPlayer {
     std::vector<InputEvent> next(Session& session, Window& window);
     /// Files to write the frame to that is drawn now.
     std::vector<std::string> take_pictures() { return std::exchange(pictures_, {}); }
+    /// A person would go on at once: nobody looks at this frame for long.
+    bool busy() const { return !events_.empty() || (!waiting_ && pictures_.empty() && !done()); }
     /// All lines are played and their frames drawn.
     bool done() const { return next_ == lines_.size() && events_.empty() && !waiting_; }
 
@@ -41,6 +44,7 @@ class ScriptPlayer {
     double y_ = 0;
     bool waiting_ = false;
     int settled_frames_ = 0;
+    FrameLog frames_;
     std::chrono::steady_clock::time_point awake_at_{};
     std::vector<std::string> pictures_;
 };

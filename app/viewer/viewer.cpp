@@ -113,7 +113,10 @@ class Viewer {
     }
 
     bool resting() const {
-        return unattended() ? session_.settled() : seconds_since(last_change_) > rest_before;
+        if (unattended()) {
+            return session_.settled() && !(player_ && player_->busy());
+        }
+        return seconds_since(last_change_) > rest_before;
     }
 
     void take_events() {
