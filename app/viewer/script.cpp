@@ -31,7 +31,7 @@ constexpr std::array words{
     Word{"say", 1, 1},      Word{"recover", 0, 0}, Word{"die", 0, 0},     Word{"metric", 1, 1},
     Word{"up", 1, 1},       Word{"light", 1, 1},   Word{"mirror", 1, 2},  Word{"edges", 1, 1},
     Word{"flat", 1, 1},     Word{"select", 1, 1},  Word{"motion", 1, 1},  Word{"dilation", 1, 3},
-    Word{"hammer", 1, 1},   Word{"frames", 1, 1},
+    Word{"hammer", 1, 1},   Word{"frames", 1, 1},  Word{"found", 1, 1},   Word{"lose", 1, 1},
 };
 
 std::vector<std::string> split(const std::string& line) {

@@ -172,6 +172,19 @@ void ScriptPlayer::act(const ScriptLine& line, Session& session, Window& window)
         session.change(next, "change of an edit", "edit " + with[0]);
     } else if (line.word == "expect") {
         expect(line, session);
+    } else if (line.word == "found") {
+        if (!session.missing_mesh()) {
+            throw InputError("no mesh is missing");
+        }
+        session.take_missing_mesh(with[0]);
+    } else if (line.word == "lose") {
+        if (with[0] == "computing") {
+            session.lose_computing();
+        } else if (with[0] == "drawing") {
+            loses_ = true;
+        } else {
+            throw InputError("write: lose computing, or lose drawing");
+        }
     } else if (line.word == "frames") {
         std::cout << with[0] << ": " << frames_.report() << std::endl;
     } else if (play_view_word(line, session)) {

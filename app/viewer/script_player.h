@@ -21,6 +21,8 @@ class ScriptPlayer {
     std::vector<InputEvent> next(Session& session, Window& window);
     /// Files to write the frame to that is drawn now.
     std::vector<std::string> take_pictures() { return std::exchange(pictures_, {}); }
+    /// The device that draws is to fail now.
+    bool take_loss() { return std::exchange(loses_, false); }
     /// A person would go on at once: nobody looks at this frame for long.
     bool busy() const { return !events_.empty() || (!waiting_ && pictures_.empty() && !done()); }
     /// All lines are played and their frames drawn.
@@ -45,6 +47,7 @@ class ScriptPlayer {
     bool waiting_ = false;
     int settled_frames_ = 0;
     FrameLog frames_;
+    bool loses_ = false;
     std::chrono::steady_clock::time_point awake_at_{};
     std::vector<std::string> pictures_;
 };

@@ -28,7 +28,8 @@ std::string text_of(const std::exception_ptr& error) {
 
 Session::Session(std::shared_ptr<Device> device, const std::string& choice, std::function<void()> changed)
     : device_(std::move(device)), bench_(std::make_unique<Workbench>(device_, choice)),
-      mirror_plane_(device_->state()), shown_(bench_->shown()), device_choices_{"cpu"},
+      mirror_plane_(device_->state()),
+      shown_(bench_->shown()), device_choices_{"cpu"}, drivers_{"double precision"}, health_(changed),
       recent_files_(user_state_folder()), recent_(recent_files_.list()) {
     Log log;
     for (LostSession& lost : lost_sessions(user_state_folder(), log)) {
@@ -37,6 +38,7 @@ Session::Session(std::shared_ptr<Device> device, const std::string& choice, std:
     for (const DeviceInfo& info : devices_or_none(log)) {
         if (info.usable()) {
             device_choices_.push_back(info.name);
+            drivers_.push_back(info.driver);
         }
     }
     for (std::string& warning : log.warnings) {
@@ -55,22 +57,6 @@ void Session::failed(const std::exception_ptr& error) {
 
 void Session::ask(const std::string& what, Worker::Job job, const std::string& replaces) {
     worker_->add(what, std::move(job), replaces);
-}
-
-void Session::open(const std::filesystem::path& file, const std::filesystem::path& mesh) {
-    leave_pending();
-    ask("opening " + file.filename().string(),
-        [this, file, mesh](Progress& progress) { bench_->open(file, mesh, progress); });
-}
-
-void Session::recover() {
-    if (lost_.empty()) {
-        throw InputError("no session was lost");
-    }
-    leave_pending();
-    ask("recovering a session",
-        [this, lost = lost_.front()](Progress& progress) { bench_->recover(*lost, progress); });
-    lost_.clear();
 }
 
 void Session::forget_lost() {
@@ -164,9 +150,16 @@ void Session::take_up() {
         const std::lock_guard lock(mutex_);
         std::move(said_.begin(), said_.end(), std::back_inserter(notices_));
         said_.clear();
+        if (said_missing_) {
+            missing_mesh_ = std::exchange(said_missing_, std::nullopt);
+        }
     }
     if (notices_.size() > most_notices) {
         notices_.erase(notices_.begin(), notices_.end() - most_notices);
+    }
+    if (shown_->mesh && shown_->document.surface->file != examined_) {
+        examined_ = shown_->document.surface->file;
+        health_.start(examined_);
     }
     if (shown_->mesh && shown_->mesh_file != opened_) {
         opened_ = shown_->mesh_file;
@@ -183,7 +176,7 @@ void Session::take_up() {
 
 bool Session::settled() const {
     const std::lock_guard lock(mutex_);
-    return worker_->idle() && shown_ == bench_->shown() && said_.empty() && !in_motion();
+    return worker_->idle() && shown_ == bench_->shown() && said_.empty() && !said_missing_ && !in_motion();
 }
 
 Box Session::bounds() const {
@@ -207,7 +200,7 @@ void Session::look_from(const Vec3& direction) {
 void Session::handle(const InputEvent& event) {
     if (event.kind == InputEvent::Kind::drop) {
         if (!event.files.empty()) {
-            open(event.files.front());
+            want_file(event.files.front());
         }
         return;
     }
@@ -273,6 +266,8 @@ void Session::key(const InputEvent& event) {
         editor.settings_changed();
     } else if (number == 'T') {
         camera.trackball = !camera.trackball;
+    } else if (number == key_of("F2")) {
+        view.facts = !view.facts;
     } else if (number == key_of("F1")) {
         view.help = !view.help;
     } else if (number == key_of("tab")) {

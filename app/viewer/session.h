@@ -3,6 +3,7 @@
 
 #include "app/viewer/edit_options.h"
 #include "app/viewer/editor.h"
+#include "app/viewer/health_check.h"
 #include "app/viewer/line_tool.h"
 #include "app/viewer/mirror_plane.h"
 #include "app/viewer/navigation.h"
@@ -34,12 +35,20 @@ struct ViewSettings {
     bool occluders = true;
     bool help = false;
     bool panels = true;
+    bool facts = false; ///< the mesh's health, times, device
 };
 
 /// A sentence for the person at the window.
 struct Notice {
     bool is_error = false;
     std::string text;
+};
+
+/// A mesh that a recipe names and that is not there.
+struct MissingFile {
+    std::string text;
+    std::filesystem::path file;
+    std::function<void(const std::filesystem::path&)> go_on; ///< with the one that was found
 };
 
 class Session {
@@ -66,9 +75,21 @@ class Session {
     void open(const std::filesystem::path& file, const std::filesystem::path& mesh = {});
     /// The youngest of the sessions that died.
     void recover();
+    /// A certain one; `mesh`, if given, stands in for its mesh.
+    void recover(const std::shared_ptr<LostSession>& lost, const std::filesystem::path& mesh = {});
     void forget_lost();                           ///< for good
     void leave_lost() { lost_.clear(); }          ///< the next start asks again
     void save(const std::filesystem::path& file); ///< .json: the recipe, else the mesh
+    /// A mesh was not found: the dialog that asks for it, or a script, says where it is.
+    const std::optional<MissingFile>& missing_mesh() const { return missing_mesh_; }
+    void take_missing_mesh(const std::filesystem::path& mesh);
+    void leave_missing_mesh() { missing_mesh_.reset(); }
+    /// A file that was dropped and waits for what becomes of unsaved changes.
+    std::optional<std::filesystem::path> take_wanted_file();
+    void want_file(const std::filesystem::path& file) { wanted_file_ = file; }
+    /// What the next session takes over from this one where the device that draws is lost; nullptr: nothing.
+    std::shared_ptr<LostSession> left_behind() const;
+    void lose_computing(); ///< for scripts: as if the device that deforms were lost
     void undo();
     void redo();
     void commit();
@@ -101,10 +122,14 @@ class Session {
     bool settled() const;
     WorkerState work() const { return worker_->state(); }
     const std::vector<Notice>& notices() const { return notices_; }
+    void complain(const std::string& text) { notices_.push_back({true, text}); }
+    void tell(const std::string& text) { notices_.push_back({false, text}); }
     void dismiss_notices() { notices_.clear(); }
     const std::vector<std::filesystem::path>& recent() const { return recent_; }
     const std::vector<std::shared_ptr<LostSession>>& lost() const { return lost_; }
     const std::vector<std::string>& device_choices() const { return device_choices_; }
+    const std::string& driver_of(size_t choice) const { return drivers_[choice]; }
+    const MeshHealth* health() { return health_.result(); } ///< of the file's mesh; nullptr: not known yet
     std::optional<Vec3> under_cursor() const;
     /// Of the whole surface, drag and occluders left out.
     Box bounds() const;
@@ -116,7 +141,7 @@ class Session {
     void trace_line();
     bool command_of_selection(const InputEvent& event);
     bool in_motion() const;
-    void complain(const std::string& text) { notices_.push_back({true, text}); }
+    void note_missing(const MissingMesh& error, std::function<void(const std::filesystem::path&)> go_on);
     SceneItem surface_item() const;
     bool occluder_key(const InputEvent& event);
     void follow();
@@ -137,11 +162,17 @@ class Session {
     std::filesystem::path opened_; ///< what the camera was last set for
     std::vector<Notice> notices_;
     std::vector<std::string> device_choices_;
+    std::vector<std::string> drivers_; ///< of the choices
+    std::optional<MissingFile> missing_mesh_;
+    std::optional<std::filesystem::path> wanted_file_;
+    std::shared_ptr<const Mesh> examined_; ///< what health_ is of
+    HealthCheck health_;
     RecentFiles recent_files_;
     std::vector<std::filesystem::path> recent_;      ///< the last one first
     std::vector<std::shared_ptr<LostSession>> lost_; ///< the youngest first
     mutable std::mutex mutex_;                       ///< of what the worker says
     std::vector<Notice> said_;
+    std::optional<MissingFile> said_missing_;
     std::optional<PickedLine> traced_;      ///< with its path
     std::vector<SurfaceAddress> asked_for_; ///< the line that was traced last
     std::unique_ptr<Worker> worker_;        ///< last: it uses all else

@@ -21,6 +21,7 @@ using Clock = std::chrono::steady_clock;
 constexpr WindowSize first_size{1280, 800};
 constexpr double idle_wait = 0.5;     // seconds; panels blink no faster
 constexpr double rest_before = 0.25;  // seconds without a change before a frame is drawn finely
+constexpr int most_losses = 3;        // of the device that draws, in one run
 constexpr int frames_after_event = 3; // panels answer an event a frame or two later
 
 std::shared_ptr<Device> open_device() {
@@ -40,15 +41,16 @@ bool is_shortcut(const InputEvent& event, const char* key) {
 
 class Viewer {
   public:
-    explicit Viewer(const ViewerOptions& options)
+    /// `player`: nullptr: a person is there; it and `lost`, what is taken over, outlive this.
+    Viewer(const ViewerOptions& options, ScriptPlayer* player, const std::shared_ptr<LostSession>& lost)
         : options_(options), window_(first_size, "Anvil"), device_(open_device()),
           ui_(window_, window_.scale()), painter_(*device_, window_),
           session_(device_, options.device, [] { Window::wake(); }) {
         session_.view.less_in_motion = painter_.draws_on_cpu();
-        if (!options.script.empty()) {
-            player_.emplace(options.script);
-        }
-        if (!options.file.empty()) {
+        player_ = player;
+        if (lost) {
+            session_.recover(lost);
+        } else if (!options.file.empty()) {
             session_.open(options.file);
         }
     }
@@ -63,6 +65,7 @@ class Viewer {
     }
 
     const std::shared_ptr<Device>& device() const { return device_; }
+    Session& session() { return session_; }
 
   private:
     /// A script ends with its last line; a screenshot alone with the first picture that shows all.
@@ -82,25 +85,32 @@ class Viewer {
         take_events();
         session_.update();
         const WindowSize size = window_.framebuffer_size();
-        if (size.empty()) {
-            window_.take_events(idle_wait); // minimized
+        hidden_ = size.empty(); // minimized
+        if (hidden_) {
             return;
         }
         session_.camera.set_window(size.width, size.height);
         const auto start = Clock::now();
         ui_.begin_frame(size, seconds_since(last_frame_));
         last_frame_ = start;
-        draw_overlay(session_);
-        panels_.show(session_, times_);
+        const bool bare = panels_.files.wants_picture();
+        if (!bare) {
+            draw_overlay(session_);
+            panels_.show(session_, times_);
+        }
         ImGui::Render();
+        if (player_ != nullptr && player_->take_loss()) {
+            throw DeviceError("the device that draws was lost");
+        }
         // The CPU draws several samples a pixel only once all is at rest, and of a million triangles never: that
         // takes it seconds.
         const bool many = session_.shown().look->coarse != nullptr;
-        const bool fine = !painter_.draws_on_cpu() || (resting() && !many);
+        const bool fine = !painter_.draws_on_cpu() || ((resting() || bare) && !many);
         fine_ = painter_.paint(session_.scene(), *ImGui::GetDrawData(), fine) && fine;
         times_.milliseconds = 1000 * seconds_since(start);
         painted_settled_ = session_.settled() && session_.shown().mesh ? painted_settled_ + 1 : 0;
         write_pictures();
+        write_wanted_pictures(bare);
         complain_of_nothing();
     }
 
@@ -120,7 +130,7 @@ class Viewer {
     }
 
     void take_events() {
-        const bool hurry = frames_due_ > 0 || unattended();
+        const bool hurry = !hidden_ && (frames_due_ > 0 || unattended());
         std::vector<InputEvent> events = window_.take_events(hurry ? 0 : fine_ ? idle_wait : rest_before);
         if (player_) {
             // Nobody is there: what the window itself says of mouse and keys would disturb the script.
@@ -144,7 +154,9 @@ class Viewer {
         } else if (is_shortcut(event, "o")) {
             panels_.files.ask_to_open();
         } else if (is_shortcut(event, "s")) {
-            panels_.files.ask_to_save(session_);
+            event.modifiers.shift ? panels_.files.ask_to_save_as(session_) : panels_.files.save(session_);
+        } else if (event.kind == InputEvent::Kind::key_down && event.key == key_of("F12")) {
+            panels_.files.ask_to_save_picture(session_);
         } else if (!ui_.handle(event) || session_.editor.dragging()) {
             session_.handle(event);
         }
@@ -159,6 +171,22 @@ class Viewer {
         }
     }
 
+    /// Those that a person asked for: of the view alone.
+    void write_wanted_pictures(bool drawn) {
+        if (!drawn) {
+            return;
+        }
+        for (const std::string& file : panels_.files.take_pictures()) {
+            try {
+                write_png(file, painter_.picture());
+                session_.tell("saved " + file);
+            } catch (const WriteError& error) {
+                session_.complain(error.what());
+            }
+        }
+        frames_due_ = frames_after_event; // the panels come back
+    }
+
     ViewerOptions options_;
     Window window_;
     std::shared_ptr<Device> device_;
@@ -166,23 +194,43 @@ class Viewer {
     Painter painter_;
     Session session_;
     Panels panels_;
-    std::optional<ScriptPlayer> player_;
+    ScriptPlayer* player_ = nullptr;
     FrameTimes times_;
     Clock::time_point last_frame_ = Clock::now();
     Clock::time_point last_change_ = Clock::now();
     int frames_due_ = frames_after_event;
     int painted_settled_ = 0;
     bool fine_ = false;
+    bool hidden_ = false;
 };
 
 } // namespace
 
 void run_viewer(const ViewerOptions& options) {
+    std::optional<ScriptPlayer> player;
+    if (!options.script.empty()) {
+        player.emplace(options.script);
+    }
     std::shared_ptr<Device> device;
-    {
-        Viewer viewer(options);
+    std::shared_ptr<LostSession> lost;
+    std::string reason;
+    for (int losses = 0;;) {
+        Viewer viewer(options, player ? &*player : nullptr, lost);
         device = viewer.device();
-        viewer.run();
+        if (losses > 0) {
+            viewer.session().complain("the device that draws failed (" + reason +
+                                      "); the window was opened again, and undo begins here");
+        }
+        try {
+            viewer.run();
+            break;
+        } catch (const DeviceError& error) {
+            if (++losses > most_losses) {
+                throw;
+            }
+            reason = error.what();
+            lost = viewer.session().left_behind();
+        }
     }
     check_validation(device);
 }

@@ -138,8 +138,8 @@ void Workbench::open(const std::filesystem::path& file, const std::filesystem::p
     take_document(Document::open(file, work(progress), document_options(), mesh), progress);
 }
 
-void Workbench::recover(LostSession& lost, Progress& progress) {
-    take_document(Document::open_unsaved(lost.recipe, work(progress), document_options()), progress);
+void Workbench::recover(LostSession& lost, const std::filesystem::path& mesh, Progress& progress) {
+    take_document(Document::open_unsaved(lost.recipe, work(progress), document_options(), mesh), progress);
     lost.discard(); // it is in this session's own file now
 }
 
@@ -183,6 +183,7 @@ void Workbench::show_document(Progress& progress) {
     next.recipe_file = document().recipe_file();
     next.mesh_file = document().mesh_file();
     next.device = backend_->device_name();
+    next.driver = backend_->driver_name();
     make_occluders(progress);
     for (const Occluder& occluder : recipe_->occluders) {
         next.occluders.push_back(occluder_views_.at(occluder.name).second);
@@ -365,7 +366,7 @@ void Workbench::commit(const Edit& edit, const std::string& what, Progress& prog
 void Workbench::change(const Recipe& next, const std::string& what, const std::string& merge,
                        Progress& progress) {
     try {
-        document().change(next, what, work(progress), merge);
+        outlasting(progress, [&] { document().change(next, what, work(progress), merge); });
     } catch (...) {
         drop_preview();
         throw;
@@ -374,12 +375,12 @@ void Workbench::change(const Recipe& next, const std::string& what, const std::s
 }
 
 void Workbench::undo(Progress& progress) {
-    document().undo(work(progress));
+    outlasting(progress, [&] { document().undo(work(progress)); });
     show_document(progress);
 }
 
 void Workbench::redo(Progress& progress) {
-    document().redo(work(progress));
+    outlasting(progress, [&] { document().redo(work(progress)); });
     show_document(progress);
 }
 

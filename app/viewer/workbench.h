@@ -12,6 +12,7 @@
 #include "engine/gpu/device.h"
 #include "engine/occluder/occluder_set.h"
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -51,6 +52,7 @@ struct Shown {
     std::optional<DragView> drag;
     std::optional<LiveContact> standing; ///< of the surface as it is, while an occluder is moved
     std::string device;
+    std::string driver;
 };
 
 class Workbench {
@@ -65,7 +67,7 @@ class Workbench {
 
     void open(const std::filesystem::path& file, const std::filesystem::path& mesh, Progress& progress);
     /// What a session that died has left; it is this one's then.
-    void recover(LostSession& lost, Progress& progress);
+    void recover(LostSession& lost, const std::filesystem::path& mesh, Progress& progress);
     /// `auto`, `cpu`, a device's name or index. The edit under way goes on with it.
     void use_device(const std::string& choice, Progress& progress);
 
@@ -83,6 +85,8 @@ class Workbench {
     void select(const SelectionChange& change);
     /// The way along the surface through these points. @throws InputError where there is none
     std::vector<Vec3> trace(const std::vector<SurfaceAddress>& points);
+    /// From now on each call of the device that deforms fails.
+    void lose_computing();
     void undo(Progress& progress);
     void redo(Progress& progress);
 
@@ -93,6 +97,8 @@ class Workbench {
     EditWork work(Progress& progress) { return {*backend_, log_, progress}; }
     Document& document();
     DragScene& scene();
+    /// Does the step; where the device fails, the CPU takes its place for good and does it again.
+    void outlasting(Progress& progress, const std::function<void()>& step);
     void take_document(std::unique_ptr<Document> opened, Progress& progress);
     DocumentOptions document_options() const;
     void make_occluders(Progress& progress);

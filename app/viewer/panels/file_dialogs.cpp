@@ -1,28 +1,102 @@
 #include "app/viewer/panels/file_dialogs.h"
 
+#include <array>
 #include <imgui.h>
-#include <imgui_stdlib.h>
 
 namespace anvil {
 
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::vector<std::string> mesh_files{".ply", ".obj", ".stl", ".off"};
+
+bool escape_pressed() {
+    return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+}
+
+/// `file` with another extension, or the mesh's.
+fs::path named_like(const Session& session, const char* extension) {
+    const fs::path& recipe = session.shown().recipe_file;
+    return fs::path(recipe.empty() ? session.shown().mesh_file : recipe).replace_extension(extension);
+}
+
+} // namespace
+
 void FileDialogs::show(Session& session) {
+    if (const auto wanted = session.take_wanted_file()) {
+        open(session, *wanted);
+    }
+    if (session.missing_mesh() && question_ == Question::none) {
+        begin(Question::missing_mesh, session.missing_mesh()->file);
+        question_text_ = session.missing_mesh()->text;
+    }
+    go_on_after_saving(session);
     file_dialog(session);
-    quit_dialog(session);
+    overwrite_dialog(session);
+    unsaved_dialog(session);
     lost_dialog(session);
+}
+
+void FileDialogs::begin(Question question, const fs::path& file) {
+    const bool reads = question == Question::open || question == Question::missing_mesh;
+    std::vector<std::string> extensions = mesh_files;
+    if (question == Question::open) {
+        extensions.emplace_back(".json");
+    } else if (question == Question::save_recipe) {
+        extensions = {".json"};
+    } else if (question == Question::save_picture) {
+        extensions = {".png"};
+    }
+    browser_.begin(file, std::move(extensions), !reads);
+    question_ = question;
+    question_text_.clear();
+    begins_ = true;
 }
 
 void FileDialogs::ask_to_quit(const Session& session) {
     if (session.shown().document.unsaved) {
-        asks_to_quit_ = true;
+        after_ = [this] { quit_ = true; };
     } else {
         quit_ = true;
     }
 }
 
-void FileDialogs::ask_to_save(const Session& session) {
+void FileDialogs::ask_to_open() {
+    begin(Question::open, folder_);
+}
+
+void FileDialogs::open(Session& session, const fs::path& file) {
+    if (session.shown().document.unsaved) {
+        after_ = [&session, file] { session.open(file); };
+    } else {
+        session.open(file);
+    }
+}
+
+void FileDialogs::save(Session& session) {
+    if (session.shown().mesh && !session.shown().recipe_file.empty()) {
+        session.save(session.shown().recipe_file);
+    } else {
+        ask_to_save_as(session);
+    }
+}
+
+void FileDialogs::ask_to_save_as(const Session& session) {
     if (session.shown().mesh) {
-        question_ = Question::save_recipe;
-        path_ = session.shown().recipe_file.string();
+        begin(Question::save_recipe, named_like(session, ".json"));
+    }
+}
+
+void FileDialogs::ask_to_save_mesh(const Session& session) {
+    if (session.shown().mesh) {
+        begin(Question::save_mesh, named_like(session, ".forged.ply"));
+    }
+}
+
+void FileDialogs::ask_to_save_picture(const Session& session) {
+    if (session.shown().mesh) {
+        begin(Question::save_picture, named_like(session, ".png"));
     }
 }
 
@@ -30,32 +104,130 @@ void FileDialogs::file_dialog(Session& session) {
     if (question_ == Question::none) {
         return;
     }
-    const bool opens = question_ == Question::open;
-    const char* title = opens                                ? "Open a mesh or a recipe"
-                        : question_ == Question::save_recipe ? "Save the recipe (.json)"
-                                                             : "Save the mesh (.ply, .obj, .stl, .off)";
-    ImGui::OpenPopup(title);
-    ImGui::SetNextWindowSize(ImVec2(560, 0));
-    if (ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
-        if (ImGui::IsWindowAppearing()) {
-            ImGui::SetKeyboardFocusHere();
+    constexpr std::array titles{"",
+                                "Open a mesh or a recipe",
+                                "Where is the mesh of this recipe?",
+                                "Save the recipe (.json)",
+                                "Save the mesh (.ply, .obj, .stl, .off)",
+                                "Save a picture (.png)"};
+    const char* title = titles[static_cast<size_t>(question_)];
+    if (std::exchange(begins_, false) || (overwrite_.empty() && !ImGui::IsPopupOpen(title))) {
+        ImGui::OpenPopup(title);
+    }
+    ImGui::SetNextWindowSize(ImVec2(620, 0));
+    if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
+        return;
+    }
+    if (!question_text_.empty()) {
+        ImGui::TextWrapped("%s", question_text_.c_str());
+    }
+    std::optional<fs::path> taken = browser_.show();
+    const bool reads = question_ == Question::open || question_ == Question::missing_mesh;
+    if (ImGui::Button(reads ? "Open" : "Save") && !taken) {
+        taken = browser_.take();
+    }
+    ImGui::SameLine();
+    const bool left = ImGui::Button("Cancel") || escape_pressed();
+    if (taken || left) {
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+    if (taken) {
+        std::error_code failed;
+        if (!reads && fs::exists(*taken, failed)) {
+            overwrite_ = *taken;
+        } else {
+            answer(session, *taken);
         }
-        const bool entered = ImGui::InputText("file", &path_, ImGuiInputTextFlags_EnterReturnsTrue);
-        const bool taken = ImGui::Button(opens ? "Open" : "Save") || entered;
+    } else if (left) {
+        if (question_ == Question::missing_mesh) {
+            session.leave_missing_mesh();
+        }
+        question_ = Question::none;
+        saving_ = false;
+        after_ = nullptr;
+    }
+}
+
+void FileDialogs::answer(Session& session, const fs::path& file) {
+    folder_ = file.parent_path();
+    switch (std::exchange(question_, Question::none)) {
+    case Question::open:
+        open(session, file);
+        break;
+    case Question::missing_mesh:
+        session.take_missing_mesh(file);
+        break;
+    case Question::save_recipe:
+    case Question::save_mesh:
+        session.save(file);
+        break;
+    case Question::save_picture:
+        pictures_.push_back(file.string());
+        break;
+    case Question::none:
+        break;
+    }
+}
+
+void FileDialogs::overwrite_dialog(Session& session) {
+    if (overwrite_.empty()) {
+        return;
+    }
+    ImGui::OpenPopup("It is there already");
+    if (ImGui::BeginPopupModal("It is there already", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
+        ImGui::TextUnformatted(overwrite_.string().c_str());
+        const bool replaces = ImGui::Button("Replace it");
         ImGui::SameLine();
-        const bool left = ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-        if (taken && !path_.empty()) {
-            if (opens) {
-                session.open(path_);
-            } else {
-                session.save(path_);
-            }
-        }
-        if (taken || left) {
-            question_ = Question::none;
+        const bool goes_back = ImGui::Button("Another name") || escape_pressed();
+        if (replaces || goes_back) {
             ImGui::CloseCurrentPopup();
         }
         ImGui::EndPopup();
+        if (replaces) {
+            answer(session, std::exchange(overwrite_, {}));
+        } else if (goes_back) {
+            overwrite_.clear();
+            begins_ = true;
+        }
+    }
+}
+
+/// What waits for the changes to be saved goes on once they are, and not at all if that failed.
+void FileDialogs::go_on_after_saving(const Session& session) {
+    if (saving_ && question_ == Question::none && overwrite_.empty() && session.settled()) {
+        saving_ = false;
+        if (const auto after = std::exchange(after_, nullptr); after && !session.shown().document.unsaved) {
+            after();
+        }
+    }
+}
+
+void FileDialogs::unsaved_dialog(Session& session) {
+    if (!after_ || saving_ || question_ != Question::none) {
+        return;
+    }
+    ImGui::OpenPopup("Unsaved changes");
+    if (ImGui::BeginPopupModal("Unsaved changes", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
+        ImGui::TextUnformatted("The recipe has changes that no file has.");
+        const bool saves = ImGui::Button("Save");
+        ImGui::SameLine();
+        const bool loses = ImGui::Button("Go on without saving");
+        ImGui::SameLine();
+        const bool stays = ImGui::Button("Stay") || escape_pressed();
+        if (saves || loses || stays) {
+            ImGui::CloseCurrentPopup();
+        }
+        ImGui::EndPopup();
+        if (saves) {
+            saving_ = true;
+            save(session);
+        } else if (loses || stays) {
+            const auto after = std::exchange(after_, nullptr);
+            if (loses) {
+                after();
+            }
+        }
     }
 }
 
@@ -84,30 +256,6 @@ void FileDialogs::lost_dialog(Session& session) {
             session.forget_lost();
         } else if (leaves) {
             session.leave_lost();
-        }
-        ImGui::EndPopup();
-    }
-}
-
-void FileDialogs::quit_dialog(Session& session) {
-    if (!asks_to_quit_) {
-        return;
-    }
-    ImGui::OpenPopup("Unsaved changes");
-    if (ImGui::BeginPopupModal("Unsaved changes", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
-        ImGui::TextUnformatted("The recipe has changes that no file has.");
-        if (ImGui::Button("Save...")) {
-            asks_to_quit_ = false;
-            ask_to_save(session);
-        }
-        ImGui::SameLine();
-        quit_ = ImGui::Button("Leave without saving");
-        ImGui::SameLine();
-        if (ImGui::Button("Stay")) {
-            asks_to_quit_ = false;
-        }
-        if (!asks_to_quit_ || quit_) {
-            ImGui::CloseCurrentPopup();
         }
         ImGui::EndPopup();
     }

@@ -39,7 +39,8 @@ constexpr const char* key_help =
     "  double click: a new knot     right click: without it\n"
     "Program\n"
     "  Ctrl+Z, Ctrl+Shift+Z undo, redo\n"
-    "  Ctrl+O, Ctrl+S       open, save the recipe     Tab   panels     F1   this help\n";
+    "  Ctrl+O, Ctrl+S       open, save the recipe (Shift: under another name)\n"
+    "  F12                  save a picture     F2   mesh and times     Tab   panels     F1   this help\n";
 
 } // namespace
 

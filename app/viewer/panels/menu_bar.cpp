@@ -17,17 +17,23 @@ void file_menu(Session& session, FileDialogs& files) {
         if (ImGui::BeginMenu("Open again", !session.recent().empty())) {
             for (const std::filesystem::path& file : session.recent()) {
                 if (ImGui::MenuItem(file.string().c_str())) {
-                    session.open(file);
+                    files.open(session, file);
                     break; // the list is another one then
                 }
             }
             ImGui::EndMenu();
         }
         if (ImGui::MenuItem("Save recipe", "Ctrl+S", false, open)) {
-            files.ask_to_save(session);
+            files.save(session);
+        }
+        if (ImGui::MenuItem("Save recipe as...", "Ctrl+Shift+S", false, open)) {
+            files.ask_to_save_as(session);
         }
         if (ImGui::MenuItem("Save mesh as...", nullptr, false, open)) {
-            files.ask_to_save_mesh();
+            files.ask_to_save_mesh(session);
+        }
+        if (ImGui::MenuItem("Save picture as...", "F12", false, open)) {
+            files.ask_to_save_picture(session);
         }
         if (ImGui::MenuItem("Quit")) {
             files.ask_to_quit(session);
@@ -79,6 +85,7 @@ void view_menu(Session& session) {
             session.navigation.preset = maya ? MousePreset::maya : MousePreset::blender;
         }
         ImGui::MenuItem("Less detail in motion", nullptr, &session.view.less_in_motion);
+        ImGui::MenuItem("Mesh and times", "F2", &session.view.facts);
         ImGui::MenuItem("Panels", "Tab", &session.view.panels);
         ImGui::EndMenu();
     }
@@ -86,9 +93,11 @@ void view_menu(Session& session) {
 
 void device_menu(Session& session) {
     if (ImGui::BeginMenu("Device")) {
-        for (const std::string& name : session.device_choices()) {
-            if (ImGui::MenuItem(name.c_str(), nullptr, name == session.shown().device)) {
-                session.use_device(name);
+        const std::vector<std::string>& names = session.device_choices();
+        for (size_t i = 0; i < names.size(); ++i) {
+            if (ImGui::MenuItem(names[i].c_str(), session.driver_of(i).c_str(),
+                                names[i] == session.shown().device)) {
+                session.use_device(names[i]);
             }
         }
         ImGui::EndMenu();

@@ -1,6 +1,7 @@
 #include "app/viewer/panels/panels.h"
 
 #include "app/viewer/panels/edit_list.h"
+#include "app/viewer/panels/facts_panel.h"
 #include "app/viewer/panels/key_help.h"
 #include "app/viewer/panels/menu_bar.h"
 
@@ -15,6 +16,7 @@ void Panels::show(Session& session, const FrameTimes& times) {
         edit_.show(session, right);
         occluders_.show(session, right);
     }
+    show_facts(session, session.view.facts);
     show_status(session, times);
     show_notices(session);
     files.show(session);

@@ -37,6 +37,9 @@ void show_status(Session& session, const FrameTimes& times) {
         if (shown.look->hidden_count > 0) {
             line += "   hidden " + std::to_string(shown.look->hidden_count);
         }
+        if (const MeshHealth* health = session.health(); health != nullptr && !advice_on(*health).empty()) {
+            line += "   " + std::to_string(advice_on(*health).size()) + " remarks (F2)";
+        }
         if (shown.drag) {
             line += "   region " + std::to_string(shown.drag->region) + ", condition " +
                     rounded_text(shown.drag->condition) + ", step " +
