@@ -1,8 +1,10 @@
 #include "app/viewer/editor.h"
 
 #include "app/viewer/navigation.h"
+#include "app/viewer/recorded_path.h"
 #include "app/viewer/window.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -11,7 +13,8 @@ namespace anvil {
 namespace {
 
 constexpr double grab_pixels = 12;
-constexpr double precise = 0.1; ///< of a step of the wheel, with Shift
+constexpr double path_tolerance = 0.005; ///< of the radius
+constexpr double precise = 0.1;          ///< of a step of the wheel, with Shift
 
 } // namespace
 
@@ -54,7 +57,8 @@ Edit Editor::edit() const {
         if (handles_.turns) {
             handle.degrees = picked.degrees;
         } else {
-            handle.by = picked.by;
+            handle.path = thinned_path(picked.way, path_tolerance * radius);
+            handle.by = handle.path.empty() ? std::optional(picked.by) : std::nullopt;
         }
         if (picked.has_anchors()) {
             Anchors& anchors = edit.anchors.emplace_back();
@@ -224,7 +228,25 @@ void Editor::begin(bool modal, bool picked_new, const OrbitCamera& camera) {
 
 void Editor::apply(const OrbitCamera& camera, bool snap) {
     drag_->apply(camera, radius, snap, handles_);
+    note_way();
     wish_ = EditorWish::preview;
+}
+
+/// What is typed has the straight way from the drag's start.
+void Editor::note_way() {
+    PickedHandle& handle = handles_.all[handles_.active];
+    const PickedHandle& before = drag_->before()[handles_.active];
+    if (!follow_path || handles_.turns) {
+        handle.way.clear();
+        return;
+    }
+    if (handle.way.empty()) {
+        handle.way.push_back(before.by);
+    }
+    if (drag_->typed()) {
+        handle.way.resize(std::max<size_t>(before.way.size(), 1));
+    }
+    handle.way.push_back(handle.by);
 }
 
 bool Editor::drag_key(const InputEvent& event, const OrbitCamera& camera) {
@@ -267,7 +289,8 @@ void Editor::finish() {
     // anchors first, are taken by Enter.
     const bool whole =
         drag_->picked_new() && handles_.all.size() == 1 && !handles_.all[0].has_anchors() && pins_.empty();
-    const bool moved = drag_->moved();
+    // A path may end where it began.
+    const bool moved = drag_->moved() || (follow_path && !handles_.turns && drag_->went());
     if (!moved) {
         handles_.all = drag_->before();
     }

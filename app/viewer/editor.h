@@ -25,6 +25,7 @@ class Editor {
     Metric metric = Metric::geodesic;
     std::optional<Refine> refine;
     std::optional<Mirror> mirror;
+    bool follow_path = false; ///< handles take the way that they are dragged, not the straight one
 
     /// Whether the event was the editor's; `surface` may be nullptr. Afterwards ask for wish().
     bool handle(const InputEvent& event, const OrbitCamera& camera, const PickSurface* surface);
@@ -72,6 +73,7 @@ class Editor {
     bool drag_key(const InputEvent& event, const OrbitCamera& camera);
     void begin(bool modal, bool picked_new, const OrbitCamera& camera);
     void apply(const OrbitCamera& camera, bool snap);
+    void note_way();
     void finish();
     void cancel();
     std::optional<size_t> handle_at(const OrbitCamera& camera, double x, double y) const;

@@ -3,7 +3,6 @@
 #include "app/viewer/window.h"
 #include "engine/core/number_text.h"
 
-#include <charconv>
 #include <cmath>
 
 namespace anvil {
@@ -37,17 +36,10 @@ void HandleDrag::move(const InputEvent& event, const OrbitCamera& camera, const 
     now_.x += (event.x - last_.x) * factor;
     now_.y += (event.y - last_.y) * factor;
     last_ = {event.x, event.y};
+    went_ = went_ || moved();
     if (handles.turns) {
         turned_ += turned(camera, handles.axis.origin, handles.axis.direction, before, now_);
     }
-}
-
-std::optional<double> HandleDrag::typed_value() const {
-    double value = 0;
-    const auto [end, error] = std::from_chars(typed_.data(), typed_.data() + typed_.size(), value);
-    return error == std::errc() && end == typed_.data() + typed_.size() && std::isfinite(value)
-               ? std::optional(value)
-               : std::nullopt;
 }
 
 void HandleDrag::apply(const OrbitCamera& camera, double radius, bool snap, PickedHandles& handles) const {
@@ -62,14 +54,14 @@ void HandleDrag::apply(const OrbitCamera& camera, double radius, bool snap, Pick
 
 double HandleDrag::turn_by(bool snap) const {
     const double degrees = snap ? to_multiple(turned_, turn_step) : turned_;
-    return typed_value().value_or(degrees);
+    return typed_.value().value_or(degrees);
 }
 
 Vec3 HandleDrag::move_by(const OrbitCamera& camera, double radius, bool snap,
                          const PickedHandles& handles) const {
     const PickedHandle& begun = before_[handles.active];
     const bool on_axis = constraint_.kind == DragConstraint::Kind::axis;
-    if (const auto value = typed_value()) {
+    if (const auto value = typed_.value()) {
         const Vec3 along = on_axis ? constraint_.direction : begun.place.normal;
         const double length = glm::length(along);
         return length > 0 ? *value / length * along : Vec3(0);
@@ -97,7 +89,7 @@ bool HandleDrag::key(const InputEvent& event, const OrbitCamera& camera, PickedH
     const int number = event.key;
     const Vec3& normal = handles.all[handles.active].place.normal;
     if (number == key_of("backspace") && !typed_.empty()) {
-        typed_.pop_back();
+        typed_.erase_last();
     } else if (number >= 'X' && number <= 'Z') {
         Vec3 axis(0);
         axis[number - 'X'] = 1;
@@ -123,16 +115,7 @@ bool HandleDrag::key(const InputEvent& event, const OrbitCamera& camera, PickedH
 }
 
 bool HandleDrag::type(uint32_t character) {
-    const bool digit = character >= '0' && character <= '9';
-    if (!digit && character != '.' && character != '-') {
-        return false;
-    }
-    if (character == '-') { // changes the sign wherever it is typed
-        typed_ = typed_.starts_with('-') ? typed_.substr(1) : "-" + typed_;
-    } else if (typed_.size() < 24) {
-        typed_ += static_cast<char>(character);
-    }
-    return true;
+    return typed_.type(character);
 }
 
 std::string HandleDrag::description(const PickedHandles& handles) const {
@@ -140,7 +123,7 @@ std::string HandleDrag::description(const PickedHandles& handles) const {
     const std::string amount = handles.turns ? rounded_text(handle.degrees) + " degrees"
                                              : "by " + rounded_text(glm::length(handle.by));
     return (handles.turns ? "Turn " : "Move ") + constraint_name_ + (constraint_name_.empty() ? "" : ", ") +
-           amount + (typed_.empty() ? "" : " (typed " + typed_ + ")");
+           amount + (typed_.empty() ? "" : " (typed " + typed_.text() + ")");
 }
 
 } // namespace anvil

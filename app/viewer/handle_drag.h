@@ -4,6 +4,7 @@
 #include "app/viewer/drag_motion.h"
 #include "app/viewer/input_event.h"
 #include "app/viewer/picked.h"
+#include "app/viewer/typed_number.h"
 
 #include <optional>
 #include <string>
@@ -24,6 +25,9 @@ class HandleDrag {
     const std::vector<PickedHandle>& before() const { return before_; }
     /// Whether it is more than a click.
     bool moved() const;
+    /// The same, or that it came back from farther.
+    bool went() const { return went_ || moved(); }
+    bool typed() const { return !typed_.empty(); }
 
     void move(const InputEvent& event, const OrbitCamera& camera, const PickedHandles& handles);
     /// An axis, a plane or a digit less; false: none of these.
@@ -40,7 +44,6 @@ class HandleDrag {
     double turn_by(bool snap) const;
     Vec3 move_by(const OrbitCamera& camera, double radius, bool snap, const PickedHandles& handles) const;
     void constrain(const Vec3& direction, const std::string& name, bool plane);
-    std::optional<double> typed_value() const;
 
     bool modal_;
     bool picked_new_;
@@ -49,8 +52,9 @@ class HandleDrag {
     Cursor last_; ///< the cursor itself
     DragConstraint constraint_;
     std::string constraint_name_;
-    std::string typed_;
+    TypedNumber typed_;
     std::vector<PickedHandle> before_;
+    bool went_ = false;
     double turned_ = 0; ///< degrees, over several turns
 };
 

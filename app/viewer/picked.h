@@ -40,6 +40,7 @@ struct PickedHandle {
     std::vector<PickedPlace> anchors;
     std::vector<PickedFace> anchor_faces;
     std::vector<PickedLine> anchor_lines;
+    std::vector<Vec3> way{}; ///< offsets that it was dragged through, where the path counts; else empty
 
     bool has_anchors() const { return !anchors.empty() || !anchor_faces.empty() || !anchor_lines.empty(); }
 };

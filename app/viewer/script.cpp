@@ -27,11 +27,12 @@ constexpr std::array words{
     Word{"drag", 2, 3},     Word{"hold", 0, 3},    Word{"key", 1, 1},     Word{"type", 1, 1},
     Word{"scroll", 1, 1},   Word{"wait", 0, 0},    Word{"sleep", 1, 1},   Word{"screenshot", 1, 1},
     Word{"save", 1, 1},     Word{"device", 1, 1},  Word{"radius", 1, 1},  Word{"shape", 1, 1},
-    Word{"occluder", 2, 9}, Word{"expect", 2, 3},  Word{"refine", 1, 1},  Word{"amount", 2, 2},
+    Word{"occluder", 2, 9}, Word{"expect", 2, 3},  Word{"refine", 1, 5},  Word{"amount", 2, 2},
     Word{"say", 1, 1},      Word{"recover", 0, 0}, Word{"die", 0, 0},     Word{"metric", 1, 1},
     Word{"up", 1, 1},       Word{"light", 1, 1},   Word{"mirror", 1, 2},  Word{"edges", 1, 1},
     Word{"flat", 1, 1},     Word{"select", 1, 1},  Word{"motion", 1, 1},  Word{"dilation", 1, 3},
     Word{"hammer", 1, 1},   Word{"frames", 1, 1},  Word{"found", 1, 1},   Word{"lose", 1, 1},
+    Word{"edit", 2, 9},     Word{"path", 1, 1},    Word{"curve", 2, 2},
 };
 
 std::vector<std::string> split(const std::string& line) {

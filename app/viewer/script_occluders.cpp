@@ -1,6 +1,7 @@
 #include "app/viewer/script_occluders.h"
 
 #include "app/viewer/panels/occluder_panel.h"
+#include "app/viewer/script_edits.h"
 #include "engine/core/error.h"
 
 #include <algorithm>
@@ -39,8 +40,13 @@ GizmoPart part_of(const std::string& name) {
 Influence influence_of(const std::vector<std::string>& with) {
     Influence influence;
     const std::string& kind = with[2];
+    if (kind == "curve") {
+        need(with.size() == 5, "occluder influence NAME curve WIDTH SHAPE");
+        const ShapeChoice shape = with_own_knots(script_shape(with[4]));
+        return {InfluenceKind::curve, influence.strength, {}, shape.knots, script_number(with[3])};
+    }
     need(kind == "soft" || kind == "hard" || kind == "paper",
-         "occluder influence NAME soft [STRENGTH [SIGMA]] | hard | paper");
+         "occluder influence NAME soft [STRENGTH [SIGMA]] | hard | paper | curve WIDTH SHAPE");
     influence.kind = kind == "soft"   ? InfluenceKind::soft
                      : kind == "hard" ? InfluenceKind::hard
                                       : InfluenceKind::paper;

@@ -1,5 +1,6 @@
 #include "app/viewer/script_player.h"
 
+#include "app/viewer/script_edits.h"
 #include "app/viewer/script_occluders.h"
 #include "app/viewer/script_view.h"
 #include "engine/core/error.h"
@@ -125,7 +126,7 @@ bool ScriptPlayer::play(const ScriptLine& line, Session& session, Window& window
 
 void ScriptPlayer::act(const ScriptLine& line, Session& session, Window& window) {
     const std::vector<std::string>& with = line.arguments;
-    if (play_occluder_line(line, session)) {
+    if (play_occluder_line(line, session) || play_edit_line(line, session)) {
         return;
     }
     if (line.word == "window") {
@@ -155,12 +156,6 @@ void ScriptPlayer::act(const ScriptLine& line, Session& session, Window& window)
         session.editor.settings_changed();
     } else if (line.word == "metric") {
         session.editor.metric = with[0] == "euclidean" ? Metric::euclidean : Metric::geodesic;
-        session.editor.settings_changed();
-    } else if (line.word == "refine") {
-        session.editor.refine.reset();
-        if (with[0] != "off") {
-            session.editor.refine.emplace().shape_tolerance = script_number(with[0]);
-        }
         session.editor.settings_changed();
     } else if (line.word == "amount") {
         Recipe next = script_recipe(session);
@@ -204,6 +199,8 @@ void ScriptPlayer::expect(const ScriptLine& line, Session& session) const {
         found = std::to_string(session.notices().size());
     } else if (const auto value = view_value(with[0], session)) {
         found = *value;
+    } else if (const auto of_edit = found_of_edit(with[0], session)) {
+        found = *of_edit;
     } else if (shown.mesh) {
         const Recipe& recipe = *shown.document.recipe;
         found = with[0] == "edits"       ? std::to_string(recipe.edits.size())

@@ -103,6 +103,9 @@ void Session::commit() {
     if (!has_pending()) {
         return;
     }
+    if (refused_ && worker_->idle()) { // its handles stay, to be mended
+        return complain("the edit cannot be taken as it is; change its handles, radius or curve, or drop it");
+    }
     const Edit edit = pending();
     const std::string what = edit.handles.empty()            ? "hammer"
                              : edit.kind == EditKind::rotate ? "turn"
@@ -112,6 +115,7 @@ void Session::commit() {
 }
 
 void Session::drop() {
+    worker_->cancel("looking ahead");
     leave_pending();
     ask("dropping the edit", [this](Progress&) { bench_->drop_preview(); });
 }
@@ -176,7 +180,8 @@ void Session::take_up() {
 
 bool Session::settled() const {
     const std::lock_guard lock(mutex_);
-    return worker_->idle() && shown_ == bench_->shown() && said_.empty() && !said_missing_ && !in_motion();
+    return worker_->idle() && shown_ == bench_->shown() && said_.empty() && !said_missing_ && !in_motion() &&
+           !outcome_due();
 }
 
 Box Session::bounds() const {

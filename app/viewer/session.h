@@ -14,6 +14,7 @@
 #include "app/viewer/worker.h"
 #include "engine/document/recent_files.h"
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -146,6 +147,8 @@ class Session {
     bool occluder_key(const InputEvent& event);
     void follow();
     void follow_occluders();
+    bool outcome_due() const;
+    void look_ahead();
     void move_occluder(const std::string& name);
     void leave_pending();
     std::optional<std::vector<OccluderUse>> uses_now() const;

@@ -6,6 +6,13 @@
 
 namespace anvil {
 
+namespace {
+
+const std::string ahead = "looking ahead";
+constexpr std::chrono::milliseconds rest_before_outcome(250);
+
+} // namespace
+
 bool Session::has_pending() const {
     return editor.has_handles() || occluders.has_motion();
 }
@@ -63,6 +70,8 @@ Edit Session::pending() const {
 void Session::leave_pending() {
     editor.clear();
     occluders.clear_motions();
+    looked_ahead_ = true;
+    refused_ = false;
 }
 
 void Session::options_changed() {
@@ -73,10 +82,16 @@ void Session::options_changed() {
 
 /// What is under way is shown: the edit, or what an occluder that is dragged touches.
 void Session::follow() {
+    worker_->cancel(ahead);
     if (has_pending()) {
-        ask(
-            "following", [this, edit = pending()](Progress& progress) { bench_->preview(edit, progress); },
-            "preview");
+        followed_at_ = std::chrono::steady_clock::now();
+        looked_ahead_ = false;
+        const auto job = [this, edit = pending()](Progress& progress) {
+            refused_ = true;
+            bench_->preview(edit, progress);
+            refused_ = false;
+        };
+        ask("following", job, "preview");
     } else if (occluders.dragging()) {
         Edit uses;
         uses.occluders = uses_now();
@@ -106,6 +121,22 @@ void Session::follow_occluders() {
         ask(
             "measuring contact", [this](Progress&) { bench_->measure_contact(); }, "contact");
     }
+}
+
+/// What of the edit under way a drag does not show, and has not been asked for yet.
+bool Session::outcome_due() const {
+    return !looked_ahead_ && has_pending() && !refused_ && (editor.refine || options.dilation);
+}
+
+void Session::look_ahead() {
+    looked_ahead_ = true;
+    ask(ahead, [this, edit = pending()](Progress& progress) {
+        try {
+            bench_->look_ahead(edit, progress);
+        } catch (const Cancelled&) {
+            return; // the edit has changed meanwhile, or the person does not want to wait
+        }
+    });
 }
 
 void Session::move_occluder(const std::string& name) {

@@ -34,6 +34,12 @@ SceneItem Session::surface_item() const {
     const bool coarse = view.less_in_motion && in_motion() && shown_->look->coarse;
     surface.indices = coarse ? shown_->look->coarse : shown_->look->indices;
     surface.selected = shown_->look->selected;
+    if (shown_->outcome) {
+        surface.mesh = shown_->outcome->mesh;
+        surface.region.reset();
+        surface.indices.reset();
+        surface.selected.reset();
+    }
     surface.lights = view.lights;
     surface.flat = view.flat;
     surface.edges = view.edges;

@@ -1,6 +1,7 @@
 #include "app/viewer/workbench.h"
 
 #include "app/backend_choice.h"
+#include "app/viewer/conditioning.h"
 #include "engine/core/error.h"
 #include "engine/core/file_cache.h"
 #include "engine/core/number_text.h"
@@ -17,7 +18,6 @@ namespace anvil {
 namespace {
 
 constexpr int occluder_cells = 64;
-constexpr double worst_condition = 1e6; ///< beyond, the last digit of a mouse's place shows
 
 std::vector<RegionMark> marks_of(const EditRegion& region) {
     const size_t n = region.vertices.size();
@@ -117,7 +117,7 @@ void Workbench::use_device(const std::string& choice, Progress& progress) {
         next = make_gpu_backend(
             same ? device_ : std::make_shared<Device>(DeviceOptions{.choice = std::to_string(index)}));
     }
-    const std::optional<Edit> dragged = session_ ? std::optional(session_->edit()) : std::nullopt;
+    const std::optional<Edit> dragged = session_ ? std::optional(previewed_) : std::nullopt;
     session_.reset();
     backend_ = std::move(next);
     if (document_) {
@@ -275,32 +275,35 @@ void Workbench::preview(const Edit& edit, Progress& /*progress*/) {
     Recipe underway = document().recipe();
     underway.edits.push_back(with_poses(underway, edit));
     const auto start = std::chrono::steady_clock::now();
+    const auto refuse = [this] {
+        const Solution& solution = session_->motion().solution;
+        refuse_ill_conditioned(solution.condition, solution.amplification);
+    };
     if (session_) {
-        const Edit before = session_->edit();
         session_->update(edit, *occluders_);
-        refuse_ill_conditioned(before);
+        try {
+            refuse();
+        } catch (...) {
+            session_->update(previewed_, *occluders_);
+            throw;
+        }
     } else {
         session_ = std::make_unique<DragSession>(scene(), *occluders_, *backend_, edit, log_);
         regions_seen_ = 0;
         shapes_seen_ = 0;
         probe_.reset();
         contact_seconds_ = 0;
+        try {
+            refuse();
+        } catch (...) {
+            session_.reset();
+            throw;
+        }
     }
+    previewed_ = edit;
     session_->wait();
     show_drag(milliseconds_since(start));
     autosave_.offer(underway, log_);
-}
-
-void Workbench::refuse_ill_conditioned(const Edit& before) {
-    const double condition = session_->motion().solution.condition;
-    if (condition <= worst_condition) {
-        return;
-    }
-    session_->update(before, *occluders_);
-    throw InputError("the handles can hardly be told apart with this shape and radius (condition " +
-                     rounded_text(condition) +
-                     "), small moves would throw the surface far; move them apart, use a smaller radius or a "
-                     "steeper curve");
 }
 
 void Workbench::show_drag(double milliseconds) {
@@ -319,6 +322,7 @@ void Workbench::show_drag(double milliseconds) {
     view.ends = handle_ends(region, ends, surface_->positions);
     view.contact = drag_contact(ends, false);
     next.drag = std::move(view);
+    next.outcome.reset();
     publish(next);
 }
 
@@ -353,6 +357,7 @@ void Workbench::drop_preview() {
     Shown next = *shown();
     next.region.reset();
     next.drag.reset();
+    next.outcome.reset();
     next.standing.reset();
     publish(next);
 }
@@ -366,7 +371,10 @@ void Workbench::commit(const Edit& edit, const std::string& what, Progress& prog
 void Workbench::change(const Recipe& next, const std::string& what, const std::string& merge,
                        Progress& progress) {
     try {
-        outlasting(progress, [&] { document().change(next, what, work(progress), merge); });
+        outlasting(progress, [&] {
+            refuse_ill_conditioned_edits(next, progress);
+            document().change(next, what, work(progress), merge);
+        });
     } catch (...) {
         drop_preview();
         throw;

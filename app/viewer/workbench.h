@@ -39,6 +39,13 @@ struct DragView {
     std::optional<DragContact> contact; ///< not measured yet: empty
 };
 
+/// What an edit would make if it were taken: with refinement and dilation, which a drag leaves out.
+struct Outcome {
+    EditReport report;
+    size_t vertices = 0; ///< of the mesh then
+    std::shared_ptr<DrawnMesh> mesh;
+};
+
 /// One state of the workbench; never changed once it is shown.
 struct Shown {
     std::shared_ptr<DrawnMesh> mesh;         ///< nullptr: nothing is open
@@ -50,6 +57,7 @@ struct Shown {
     std::filesystem::path mesh_file;
     std::vector<OccluderView> occluders;
     std::optional<DragView> drag;
+    std::optional<Outcome> outcome;      ///< of the drag, once it is known
     std::optional<LiveContact> standing; ///< of the surface as it is, while an occluder is moved
     std::string device;
     std::string driver;
@@ -74,6 +82,8 @@ class Workbench {
     /// Shows the edit at the end of the recipe, without taking it. @throws InputError: the one before stays
     void preview(const Edit& edit, Progress& progress);
     void drop_preview();
+    /// Shows all that the edit would make. Taking it costs little then. @throws InputError, Cancelled
+    void look_ahead(const Edit& edit, Progress& progress);
     /// What the drag touches, if preview() has left it out since it takes long.
     void measure_contact();
     /// What of the surface as it is touches the occluders that the edit uses.
@@ -104,7 +114,7 @@ class Workbench {
     void make_occluders(Progress& progress);
     void show_document(Progress& progress);
     void show_look();
-    void refuse_ill_conditioned(const Edit& before);
+    void refuse_ill_conditioned_edits(const Recipe& next, Progress& progress);
     void show_drag(double milliseconds);
     std::optional<DragContact> drag_contact(std::span<const Vec3> ends, bool whatever_it_takes);
     std::shared_ptr<const DrawnRegion> drawn_region();
@@ -122,6 +132,7 @@ class Workbench {
     std::shared_ptr<const Recipe> recipe_; ///< that `occluders_` are of
     std::optional<EditOccluders> occluders_;
     std::unique_ptr<DragSession> session_;
+    Edit previewed_;          ///< what session_ was given last: one side of a mirrored one
     size_t regions_seen_ = 0; ///< of the session's work: what the last region was made of
     size_t shapes_seen_ = 0;
     std::shared_ptr<Buffer> marks_;

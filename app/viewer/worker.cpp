@@ -38,6 +38,13 @@ void Worker::cancel() {
     }
 }
 
+void Worker::cancel(const std::string& what) {
+    const std::lock_guard lock(mutex_);
+    if (progress_ && state_.job == what) {
+        progress_->cancel();
+    }
+}
+
 bool Worker::idle() const {
     const std::lock_guard lock(mutex_);
     return waiting_.empty() && !progress_;

@@ -35,7 +35,8 @@ class Worker {
     /// After all jobs so far. `replaces`, if not empty: a job of that name that waits to begin, as the last
     /// of all, does not any more: of a drag's places only the last counts.
     void add(const std::string& what, Job job, const std::string& replaces = "");
-    void cancel(); ///< the job under way; the others go on
+    void cancel();                        ///< the job under way; the others go on
+    void cancel(const std::string& what); ///< the same if that is what it is
     bool idle() const;
     WorkerState state() const;
 

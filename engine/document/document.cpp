@@ -131,11 +131,30 @@ DocumentState Document::state() const {
             can_redo() ? steps_[step_ + 1].what : std::string(), unsaved()};
 }
 
+/// What is applied is what a file of it says.
+Recipe Document::checked(const Recipe& next) const {
+    const std::string name = (recipe_file_.empty() ? mesh_file_ : recipe_file_).string();
+    return parse_recipe(write_recipe(next), name);
+}
+
+std::vector<std::shared_ptr<const SurfaceVersion>> Document::foresee(const Recipe& next,
+                                                                     const EditWork& work) {
+    const Recipe recipe = this->checked(next);
+    VersionStore::Chain chain = versions_.chain_of(recipe);
+    const EditOccluders occluders = this->occluders(recipe, work);
+    const auto last = versions_.version(chain, recipe.edits.size(), occluders, work);
+    std::vector<std::shared_ptr<const SurfaceVersion>> made;
+    for (size_t i = 0; i < chain.size(); ++i) {
+        made.push_back(VersionStore::version_at_hand(chain, i));
+    }
+    made.back() = last;
+    foreseen_ = std::move(chain);
+    return made;
+}
+
 void Document::change(const Recipe& next, const std::string& what, const EditWork& work,
                       const std::string& merge) {
-    // What is applied is what a file of it says.
-    const std::string name = (recipe_file_.empty() ? mesh_file_ : recipe_file_).string();
-    Recipe checked = parse_recipe(write_recipe(next), name);
+    Recipe checked = this->checked(next);
     if (says_the_same(checked, *recipe_)) {
         return;
     }
@@ -154,6 +173,7 @@ void Document::change(const Recipe& next, const std::string& what, const EditWor
     checked.file = recipe_file_.string();
     recipe_ = std::make_shared<const Recipe>(std::move(checked));
     surface_ = std::move(surface);
+    foreseen_.clear(); // what of it was taken has places of its own
     keep_models();
 }
 

@@ -80,6 +80,11 @@ class Document {
     void change(const Recipe& next, const std::string& what, const EditWork& work,
                 const std::string& merge = {});
 
+    /// The surfaces that the recipe would make, without taking it: of the file, then after each edit; those
+    /// that memory does not allow are nullptr, the last one is there. They stay until others are foreseen, so
+    /// that change() finds them. @throws as change()
+    std::vector<std::shared_ptr<const SurfaceVersion>> foresee(const Recipe& next, const EditWork& work);
+
     bool can_undo() const { return step_ > 0; }
     bool can_redo() const { return step_ + 1 < steps_.size(); }
     void undo(const EditWork& work);
@@ -125,12 +130,14 @@ class Document {
     std::shared_ptr<const Recipe> recipe_of(const Step& step) const;
     void go_to(size_t step, const EditWork& work);
     void keep_models();
+    Recipe checked(const Recipe& next) const;
     void check_target(const std::filesystem::path& file) const;
 
     DocumentOptions options_;
     std::filesystem::path mesh_file_, recipe_file_;
     VersionStore versions_;
     KeptModels models_;
+    VersionStore::Chain foreseen_;
     std::vector<Step> steps_; ///< the first is the state that was opened
     size_t step_ = 0;
     std::shared_ptr<const Recipe> recipe_; ///< of the step

@@ -100,6 +100,9 @@ class Dilator {
         begin();
         DilationResult result;
         for (uint32_t s = 0; s < motion_.times.size(); ++s) {
+            if (task_.progress != nullptr) {
+                task_.progress->report("dilation", motion_.times[s]);
+            }
             const std::vector<double> pushed = advance(s);
             if (task_.closed) {
                 result.free_volume = volume([](const State& state) { return state.walk.at; });

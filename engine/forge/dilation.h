@@ -1,6 +1,7 @@
 // Contact dilation: what an occluder pushes away swells up beside it (section 3, Precise Contact Modelling).
 #pragma once
 
+#include "engine/core/progress.h"
 #include "engine/deform/deform_input.h"
 #include "engine/edit/recipe.h"
 #include "engine/forge/edit_region.h"
@@ -21,8 +22,9 @@ struct DilationTask {
     const DeformInput& input; ///< with occluders, none by the paper's rule
     const DeformMotion& motion;
     Dilation dilation;
-    double width; ///< w: how far from occluder and contact the surface swells
-    bool closed;  ///< the mesh encloses a volume
+    double width;                 ///< w: how far from occluder and contact the surface swells
+    bool closed;                  ///< the mesh encloses a volume
+    Progress* progress = nullptr; ///< hears of the steps and can stop them
 };
 
 struct DilationResult {
@@ -39,7 +41,7 @@ struct DilationResult {
 /// it was before the edit) from what touched in this step, g(r) = (256/27) r (1 - r)^3. rho: `depth` amount *
 /// deepest push of the step; `volume` amount * the volume pushed away over that of a swelling of height 1;
 /// solved, such that the volume is that of the edit without occluders. Then contact again.
-/// @throws InputError for `solve` on an open mesh.
+/// @throws InputError for `solve` on an open mesh, Cancelled.
 DilationResult dilate(const DilationTask& task, SurfaceState& surface);
 
 } // namespace anvil

@@ -6,45 +6,82 @@
 
 namespace anvil {
 
-void show_edit_list(Session& session, PanelColumn& column) {
+namespace {
+
+std::string title_of(const Edit& edit, size_t index) {
+    const std::string number = std::to_string(index + 1) + ". ";
+    if (edit.handles.empty()) {
+        return number + "hammer";
+    }
+    return number + (edit.kind == EditKind::rotate ? "turn" : "move") + ", " +
+           std::to_string(edit.handles.size()) + (edit.handles.size() == 1 ? " handle" : " handles") +
+           (edit.refine ? ", refined" : "");
+}
+
+} // namespace
+
+void EditList::ask(Session& session, const Recipe& next, const std::string& what, const std::string& merge) {
+    draft_ = next;
+    session.change(next, what, merge);
+}
+
+void EditList::order_buttons(Session& session, size_t index) {
+    Recipe next = *draft_;
+    const auto place = next.edits.begin() + static_cast<std::ptrdiff_t>(index);
+    if (ImGui::Button("Remove")) {
+        next.edits.erase(place);
+        open_.reset();
+        return ask(session, next, "removal of an edit", "");
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Earlier") && index > 0) {
+        std::iter_swap(place, place - 1);
+        open_ = index - 1;
+        return ask(session, next, "order of edits", "");
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Later") && index + 1 < next.edits.size()) {
+        std::iter_swap(place, place + 1);
+        open_ = index + 1;
+        return ask(session, next, "order of edits", "");
+    }
+}
+
+void EditList::show_edit(Session& session, size_t index) {
+    ImGui::PushID(static_cast<int>(index));
+    ImGui::SetNextItemOpen(open_ == index);
+    const bool opens = ImGui::TreeNode(title_of(draft_->edits[index], index).c_str());
+    if (ImGui::IsItemClicked()) {
+        open_ = open_ == index ? std::nullopt : std::optional(index);
+    }
+    if (opens) {
+        Edit edit = draft_->edits[index];
+        if (details_.show(edit, session.bounds())) {
+            Recipe next = *draft_;
+            next.edits[index] = edit;
+            ask(session, next, "change of an edit", "edit " + std::to_string(index));
+        }
+        order_buttons(session, index);
+        ImGui::TreePop();
+    }
+    ImGui::PopID();
+}
+
+void EditList::show(Session& session, PanelColumn& column) {
     const DocumentState& document = session.shown().document;
-    if (!document.recipe || document.recipe->edits.empty()) {
+    if (!draft_ || session.settled()) {
+        draft_ = document.recipe ? std::optional(*document.recipe) : std::nullopt;
+    }
+    if (!draft_ || draft_->edits.empty()) {
+        draft_.reset();
         return;
     }
     column.begin("Edits");
-    const double diagonal = std::max(session.bounds().diagonal(), 1e-30);
-    for (size_t i = 0; i < document.recipe->edits.size(); ++i) {
-        ImGui::PushID(static_cast<int>(i));
-        Edit edit = document.recipe->edits[i];
-        const std::string title =
-            std::to_string(i + 1) + ". " + (edit.kind == EditKind::rotate ? "turn" : "move") + ", " +
-            std::to_string(edit.handles.size()) + (edit.handles.size() == 1 ? " handle" : " handles");
-        if (ImGui::TreeNode(title.c_str())) {
-            double radius = edit.radius.value_or(0.25 * diagonal);
-            bool changed = length_slider("radius", radius, diagonal);
-            edit.radius = changed ? std::optional(radius) : edit.radius;
-            auto amount = static_cast<float>(edit.amount);
-            if (ImGui::SliderFloat("amount", &amount, 0, 1)) {
-                edit.amount = amount;
-                changed = true;
-            }
-            changed = shape_combo("shape", edit.shape) || changed;
-            const bool remove = ImGui::Button("Remove");
-            if (changed || remove) {
-                Recipe next = *document.recipe;
-                const auto place = next.edits.begin() + static_cast<std::ptrdiff_t>(i);
-                if (remove) {
-                    next.edits.erase(place);
-                } else {
-                    *place = edit;
-                }
-                session.change(next, remove ? "removal of an edit" : "change of an edit",
-                               remove ? "" : "edit " + std::to_string(i));
-            }
-            ImGui::TreePop();
-        }
-        ImGui::PopID();
+    ImGui::PushItemWidth(-110);
+    for (size_t i = 0; i < draft_->edits.size(); ++i) { // a removal ends it sooner
+        show_edit(session, i);
     }
+    ImGui::PopItemWidth();
     column.end();
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/viewer/panels/controls.h"
 #include "app/viewer/panels/mirror_controls.h"
+#include "app/viewer/panels/refine_controls.h"
 
 #include <array>
 #include <imgui.h>
@@ -34,19 +35,16 @@ void EditPanel::show(Session& session, PanelColumn& column) {
         editor.metric = metric == 1 ? Metric::euclidean : Metric::geodesic;
         changed = true;
     }
-    bool refines = editor.refine.has_value();
-    if (ImGui::Checkbox("refine", &refines)) {
-        editor.refine = refines ? std::optional(Refine{}) : std::nullopt;
-        changed = true;
+    changed = refine_controls(editor.refine, diagonal) || changed;
+    if (session.shown().outcome && session.shown().outcome->report.refine) {
+        show_refinement(*session.shown().outcome->report.refine, session.shown().outcome->vertices);
     }
-    if (editor.refine) {
-        changed = length_slider("tolerance", editor.refine->shape_tolerance, 0.1) || changed;
-    }
+    ImGui::Checkbox("follow the path of the drag", &editor.follow_path);
     changed = mirror_controls(editor.mirror, session.bounds()) || changed;
     if (changed) {
-        editor.settings_changed();
+        session.options_changed();
     }
-    if (editor.has_handles()) {
+    if (session.has_pending()) {
         if (ImGui::Button("Take (Enter)")) {
             session.commit();
         }

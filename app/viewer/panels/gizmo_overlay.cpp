@@ -75,7 +75,26 @@ std::optional<ImVec2> window_place(const OrbitCamera& camera, const Vec3& place)
                         : std::nullopt;
 }
 
+void draw_way(ImDrawList& list, const OrbitCamera& camera, const std::vector<Vec3>& places) {
+    for (size_t i = 1; i < places.size(); ++i) {
+        const auto from = window_place(camera, places[i - 1]);
+        const auto to = window_place(camera, places[i]);
+        if (from && to) {
+            list.AddLine(*from, *to, outline, 4);
+            list.AddLine(*from, *to, way_colour, 2);
+        }
+    }
+}
+
+/// Of recorded hammers, and of handles whose path counts.
 void draw_ways(ImDrawList& list, const Session& session) {
+    for (const PickedHandle& handle : session.editor.handles()) {
+        std::vector<Vec3> places;
+        for (const Vec3& offset : handle.way) {
+            places.push_back(handle.place.position + offset);
+        }
+        draw_way(list, session.camera, places);
+    }
     for (const auto& [name, poses] : session.occluders.samples()) {
         const OccluderView* occluder = nullptr;
         for (const OccluderView& view : session.shown().occluders) {
@@ -84,15 +103,11 @@ void draw_ways(ImDrawList& list, const Session& session) {
         if (occluder == nullptr) {
             continue;
         }
-        std::optional<ImVec2> before;
+        std::vector<Vec3> places;
         for (const Transform& pose : poses) {
-            const auto at = window_place(session.camera, placed_point(pose, occluder->pivot));
-            if (at && before) {
-                list.AddLine(*before, *at, outline, 4);
-                list.AddLine(*before, *at, way_colour, 2);
-            }
-            before = at;
+            places.push_back(placed_point(pose, occluder->pivot));
         }
+        draw_way(list, session.camera, places);
     }
 }
 
@@ -143,11 +158,11 @@ void draw_contact(const Session& session) {
 }
 
 void draw_gizmo(const Session& session) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    draw_ways(list, session);
     if (!session.view.occluders) {
         return;
     }
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    draw_ways(list, session);
     for (const GizmoMark& mark : session.occluders.marks(session.camera, session.shown().occluders)) {
         draw_mark(list, mark, mark.part == session.occluders.hot());
     }

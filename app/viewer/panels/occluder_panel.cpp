@@ -30,7 +30,12 @@ void show_hammer(Session& session) {
 /// Of what is under way, else of the last edit.
 void show_contacts(const Session& session) {
     const Shown& shown = session.shown();
-    if (shown.drag && !shown.drag->contact) {
+    if (shown.outcome) { // with what swells up, and finished by exact distances
+        show_contact(shown.outcome->report);
+        if (shown.outcome->report.volume) {
+            show_volume(shown.outcome->report.volume->before, shown.outcome->report.volume->after);
+        }
+    } else if (shown.drag && !shown.drag->contact) {
         ImGui::TextUnformatted("touching: being measured");
     } else if (shown.drag) {
         show_live_contact(shown.drag->contact->touching);

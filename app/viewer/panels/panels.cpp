@@ -1,6 +1,5 @@
 #include "app/viewer/panels/panels.h"
 
-#include "app/viewer/panels/edit_list.h"
 #include "app/viewer/panels/facts_panel.h"
 #include "app/viewer/panels/key_help.h"
 #include "app/viewer/panels/menu_bar.h"
@@ -11,7 +10,7 @@ void Panels::show(Session& session, const FrameTimes& times) {
     show_menu(session, files);
     if (session.view.panels) {
         PanelColumn left(PanelColumn::Side::left);
-        show_edit_list(session, left);
+        edits_.show(session, left);
         PanelColumn right(PanelColumn::Side::right);
         edit_.show(session, right);
         occluders_.show(session, right);

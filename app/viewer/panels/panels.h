@@ -1,6 +1,7 @@
 // What is laid over the picture: menus, settings, the list of edits, the status bar.
 #pragma once
 
+#include "app/viewer/panels/edit_list.h"
 #include "app/viewer/panels/edit_panel.h"
 #include "app/viewer/panels/file_dialogs.h"
 #include "app/viewer/panels/occluder_panel.h"
@@ -17,6 +18,7 @@ class Panels {
 
   private:
     EditPanel edit_;
+    EditList edits_;
     OccluderPanel occluders_;
 };
 
