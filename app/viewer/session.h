@@ -176,9 +176,12 @@ class Session {
     mutable std::mutex mutex_;                       ///< of what the worker says
     std::vector<Notice> said_;
     std::optional<MissingFile> said_missing_;
-    std::optional<PickedLine> traced_;      ///< with its path
-    std::vector<SurfaceAddress> asked_for_; ///< the line that was traced last
-    std::unique_ptr<Worker> worker_;        ///< last: it uses all else
+    std::optional<PickedLine> traced_;                  ///< with its path
+    std::vector<SurfaceAddress> asked_for_;             ///< the line that was traced last
+    std::chrono::steady_clock::time_point followed_at_; ///< when the edit under way changed last
+    bool looked_ahead_ = true;                          ///< since then
+    std::atomic<bool> refused_ = false;                 ///< the edit under way, as it was followed last
+    std::unique_ptr<Worker> worker_;                    ///< last: it uses all else
 };
 
 } // namespace anvil
