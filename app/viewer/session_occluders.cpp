@@ -121,6 +121,9 @@ void Session::follow_occluders() {
         ask(
             "measuring contact", [this](Progress&) { bench_->measure_contact(); }, "contact");
     }
+    if (idle && outcome_due() && std::chrono::steady_clock::now() - followed_at_ > rest_before_outcome) {
+        look_ahead();
+    }
 }
 
 /// What of the edit under way a drag does not show, and has not been asked for yet.
