@@ -23,8 +23,9 @@ thread_local HeapUse heap;
 
 } // namespace
 
-// The program's own, for all of its tests: the standard ones but for the counting.
-void* operator new(size_t bytes) {
+// The program's own, for all of its tests: the standard ones but for the counting. Never inlined: seen
+// through, the compiler takes malloc() and free() for a mismatch with the other's new and delete.
+[[gnu::noinline]] void* operator new(size_t bytes) {
     if (heap.counting) {
         heap.bytes += bytes;
         heap.largest = std::max(heap.largest, bytes);
@@ -35,10 +36,10 @@ void* operator new(size_t bytes) {
     }
     return memory;
 }
-void operator delete(void* memory) noexcept {
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
     std::free(memory); // NOLINT
 }
-void operator delete(void* memory, size_t) noexcept {
+[[gnu::noinline]] void operator delete(void* memory, size_t) noexcept {
     std::free(memory); // NOLINT
 }
 
