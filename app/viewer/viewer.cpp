@@ -102,8 +102,8 @@ class Viewer {
         if (player_ != nullptr && player_->take_loss()) {
             throw DeviceError("the device that draws was lost");
         }
-        // The CPU draws several samples a pixel only once all is at rest, and of a million triangles never: that
-        // takes it seconds.
+        // The CPU draws several samples a pixel only once all is at rest, and of a million triangles never:
+        // that takes it seconds.
         const bool many = session_.shown().look->coarse != nullptr;
         const bool fine = !painter_.draws_on_cpu() || ((resting() || bare) && !many);
         fine_ = painter_.paint(session_.scene(), *ImGui::GetDrawData(), fine) && fine;
