@@ -190,9 +190,10 @@ class EditRun {
         const double width =
             edit_.dilation->width.value_or(0.5 * largest_radius(region, now_.frame.diagonal));
         try {
-            DilationResult result = dilate({mesh(), now_.positions, origin(), region, input, motion,
-                                            *edit_.dilation, width, now_.volume.has_value(), &tools_.progress},
-                                           surface());
+            DilationResult result =
+                dilate({mesh(), now_.positions, origin(), region, input, motion, *edit_.dilation, width,
+                        now_.volume.has_value(), &tools_.progress},
+                       surface());
             now_.report.dilation = DilationReport{width, result.height, edit_.dilation->solve};
             free_volume = result.free_volume;
             return std::move(result.points);
