@@ -19,12 +19,12 @@ enum class EditorWish : uint8_t { nothing, preview, commit, drop };
 
 class Editor {
   public:
-    Tool tool = Tool::move;
     double radius = 1; ///< world
     ShapeChoice shape;
-    Metric metric = Metric::geodesic;
     std::optional<Refine> refine;
     std::optional<Mirror> mirror;
+    Metric metric = Metric::geodesic;
+    Tool tool = Tool::move;
     bool follow_path = false; ///< handles take the way that they are dragged, not the straight one
 
     /// Whether the event was the editor's; `surface` may be nullptr. Afterwards ask for wish().
@@ -78,13 +78,13 @@ class Editor {
     void cancel();
     std::optional<size_t> handle_at(const OrbitCamera& camera, double x, double y) const;
 
+    Cursor cursor_;
     PickedHandles handles_;
     std::vector<PickedPlace> pins_;
     std::vector<PickedPlace> lasting_pins_;
     std::optional<SurfaceHit> hover_;
     std::optional<HandleDrag> drag_;
     EditorWish wish_ = EditorWish::nothing;
-    Cursor cursor_;
     bool snapping_ = false;
 };
 

@@ -151,15 +151,26 @@ class Viewer {
     void handle(const InputEvent& event) {
         if (event.kind == InputEvent::Kind::close) {
             panels_.files.ask_to_quit(session_);
-        } else if (is_shortcut(event, "o")) {
+        } else if (!shortcut(event) && (!ui_.handle(event) || session_.editor.dragging())) {
+            session_.handle(event);
+        }
+    }
+
+    /// None while it is open what becomes of a lost session.
+    bool shortcut(const InputEvent& event) {
+        if (!session_.lost().empty()) {
+            return false;
+        }
+        if (is_shortcut(event, "o")) {
             panels_.files.ask_to_open();
         } else if (is_shortcut(event, "s")) {
             event.modifiers.shift ? panels_.files.ask_to_save_as(session_) : panels_.files.save(session_);
         } else if (event.kind == InputEvent::Kind::key_down && event.key == key_of("F12")) {
             panels_.files.ask_to_save_picture(session_);
-        } else if (!ui_.handle(event) || session_.editor.dragging()) {
-            session_.handle(event);
+        } else {
+            return false;
         }
+        return true;
     }
 
     void write_pictures() {

@@ -27,7 +27,7 @@ void FileDialogs::show(Session& session) {
     if (const auto wanted = session.take_wanted_file()) {
         open(session, *wanted);
     }
-    if (session.missing_mesh() && question_ == Question::none) {
+    if (session.missing_mesh() && !waits()) {
         begin(Question::missing_mesh, session.missing_mesh()->file);
         question_text_ = session.missing_mesh()->text;
     }
@@ -38,7 +38,15 @@ void FileDialogs::show(Session& session) {
     lost_dialog(session);
 }
 
+/// A window in front of another would leave that one open, unseen, and with it the mouse.
+bool FileDialogs::waits() const {
+    return question_ != Question::none || !overwrite_.empty() || (after_ && !saving_);
+}
+
 void FileDialogs::begin(Question question, const fs::path& file) {
+    if (waits()) {
+        return;
+    }
     const bool reads = question == Question::open || question == Question::missing_mesh;
     std::vector<std::string> extensions = mesh_files;
     if (question == Question::open) {

@@ -17,6 +17,7 @@ class FileDialogs {
     /// The person asked to leave, unsaved changes or not.
     bool quit() const { return quit_; }
     void ask_to_quit(const Session& session);
+    /// Nothing, as all that asks, while another question waits: answered first is what was asked first.
     void ask_to_open();
     /// Asks first if there are unsaved changes.
     void open(Session& session, const std::filesystem::path& file);
@@ -33,6 +34,7 @@ class FileDialogs {
   private:
     enum class Question : uint8_t { none, open, missing_mesh, save_recipe, save_mesh, save_picture };
 
+    bool waits() const;
     void begin(Question question, const std::filesystem::path& file);
     void file_dialog(Session& session);
     void answer(Session& session, const std::filesystem::path& file);
