@@ -42,8 +42,9 @@ bool is_shortcut(const InputEvent& event, const char* key) {
 class Viewer {
   public:
     /// `player`: nullptr: a person is there; it and `lost`, what is taken over, outlive this.
-    Viewer(const ViewerOptions& options, ScriptPlayer* player, const std::shared_ptr<LostSession>& lost)
-        : options_(options), window_(first_size, "Anvil"), device_(open_device()),
+    Viewer(const Display& display, const ViewerOptions& options, ScriptPlayer* player,
+           const std::shared_ptr<LostSession>& lost)
+        : options_(options), window_(display, first_size, "Anvil"), device_(open_device()),
           ui_(window_, window_.scale()), painter_(*device_, window_),
           session_(device_, options.device, [] { Window::wake(); }) {
         session_.view.less_in_motion = painter_.draws_on_cpu();
@@ -222,11 +223,13 @@ void run_viewer(const ViewerOptions& options) {
     if (!options.script.empty()) {
         player.emplace(options.script);
     }
+    // Kept while windows come and go: a server may end, or begin anew, when its last client leaves.
+    const Display display;
     std::shared_ptr<Device> device;
     std::shared_ptr<LostSession> lost;
     std::string reason;
     for (int losses = 0;;) {
-        Viewer viewer(options, player ? &*player : nullptr, lost);
+        Viewer viewer(display, options, player ? &*player : nullptr, lost);
         device = viewer.device();
         if (losses > 0) {
             viewer.session().complain("the device that draws failed (" + reason +

@@ -27,14 +27,6 @@ Modifiers modifiers_of(int mods) {
     return {(mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_ALT) != 0};
 }
 
-void start_glfw() {
-    if (glfwInit() != GLFW_TRUE) {
-        throw DeviceError(
-            "no window can be opened (" + last_glfw_error() +
-            "); is there a display? `anvil forge` works without one, and so does `xvfb-run anvil view`");
-    }
-}
-
 } // namespace
 
 struct Window::Callbacks {
@@ -102,20 +94,29 @@ struct Window::Callbacks {
     }
 };
 
-Window::Window(WindowSize size, const std::string& title) {
-    start_glfw();
+Display::Display() {
+    if (glfwInit() != GLFW_TRUE) {
+        throw DeviceError(
+            "no window can be opened (" + last_glfw_error() +
+            "); is there a display? `anvil forge` works without one, and so does `xvfb-run anvil view`");
+    }
     if (glfwVulkanSupported() != GLFW_TRUE) {
         glfwTerminate();
         throw DeviceError("there is no Vulkan loader or driver on this machine (Debian: libvulkan1 and "
                           "mesa-vulkan-drivers); the viewer draws with Vulkan");
     }
+}
+
+Display::~Display() {
+    glfwTerminate();
+}
+
+Window::Window(const Display& /*display*/, WindowSize size, const std::string& title) {
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
     window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
     if (window_ == nullptr) {
-        const std::string reason = last_glfw_error();
-        glfwTerminate();
-        throw DeviceError("no window can be opened (" + reason + ")");
+        throw DeviceError("no window can be opened (" + last_glfw_error() + ")");
     }
     glfwSetWindowUserPointer(window_, this);
     glfwSetCursorPosCallback(window_, Callbacks::move);
@@ -129,7 +130,6 @@ Window::Window(WindowSize size, const std::string& title) {
 
 Window::~Window() {
     glfwDestroyWindow(window_);
-    glfwTerminate();
 }
 
 std::vector<std::string> Window::instance_extensions() {

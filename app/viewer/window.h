@@ -21,10 +21,20 @@ struct WindowSize {
     bool empty() const { return width <= 0 || height <= 0; }
 };
 
-class Window {
+/// The connection to the screen; outlives all windows on it. One at a time.
+class Display {
   public:
     /// @throws DeviceError if there is no display or it has no Vulkan.
-    Window(WindowSize size, const std::string& title);
+    Display();
+    ~Display();
+    Display(const Display&) = delete;
+    Display& operator=(const Display&) = delete;
+};
+
+class Window {
+  public:
+    /// @throws DeviceError
+    Window(const Display& display, WindowSize size, const std::string& title);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;

@@ -45,6 +45,7 @@ void check_session(const Example& example, const std::string& device) {
     const std::string mesh = session.file("example.ply");
     REQUIRE(run_anvil({"sample", example.sample, "-o", mesh, "--vertices", example.vertices}).status == 0);
     const ProgramRun run = session.play(with_history(example, session), device, mesh);
+    INFO(run.err);
     CHECK(run.err.empty());
     REQUIRE(run.status == 0);
     const std::string end = content_of(session.file("end.ply"));
@@ -93,6 +94,7 @@ TEST_CASE("A recipe whose mesh was moved asks for it and goes on with the one th
                                             "\nwait\nexpect edits 1\nexpect unsaved yes\nsave " + recipe +
                                             "\nwait\nexpect unsaved no\n",
                                         "cpu", recipe);
+    INFO(run.err);
     CHECK(run.err.empty());
     REQUIRE(run.status == 0);
     CHECK_THAT(content_of(recipe), Catch::Contains("moved.ply"));
@@ -107,6 +109,7 @@ TEST_CASE("A device that computes and is lost is followed by the CPU, and the ed
                          "expect edits 2\nexpect device cpu\nsave " +
                          session.file("kept.json") + "\nsave " + session.file("kept.ply") + "\nwait\n",
                      "0");
+    INFO(run.err);
     CHECK(run.err.empty());
     REQUIRE(run.status == 0);
     REQUIRE(
@@ -123,6 +126,7 @@ TEST_CASE("A device that draws and is lost costs the window, but no edit", "[app
                                             "expect edits 2\nscreenshot " +
                                             session.file("after.png") + "\n",
                                         "cpu");
+    INFO(run.err);
     CHECK(run.err.empty());
     REQUIRE(run.status == 0);
     CHECK(fs::file_size(session.file("after.png")) > 20000);
