@@ -23,6 +23,7 @@ thread_local HeapUse heap;
 
 } // namespace
 
+#ifndef __SANITIZE_ADDRESS__ // the sanitizer's own find more; without these nothing is counted
 // The program's own, for all of its tests: the standard ones but for the counting. Never inlined: seen
 // through, the compiler takes malloc() and free() for a mismatch with the other's new and delete.
 [[gnu::noinline]] void* operator new(size_t bytes) {
@@ -42,6 +43,7 @@ thread_local HeapUse heap;
 [[gnu::noinline]] void operator delete(void* memory, size_t) noexcept {
     std::free(memory); // NOLINT
 }
+#endif
 
 namespace {
 
