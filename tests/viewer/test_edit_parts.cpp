@@ -1,7 +1,6 @@
 // Anchors, pins, lines and the mirror plane of the edit under way.
-#include "app/viewer/editor.h"
 #include "app/viewer/script.h"
-#include "engine/mesh/sample_shapes.h"
+#include "tests/viewer/edited_sphere.h"
 
 #include <catch2/catch.hpp>
 
@@ -9,19 +8,7 @@ using namespace anvil;
 
 namespace {
 
-struct Table {
-    Mesh mesh = make_sample("icosphere", 2562);
-    RefinementHistory history{mesh};
-    PickSurface surface{mesh, history, mesh.positions};
-    OrbitCamera camera;
-    Editor editor;
-
-    Table() {
-        camera.set_window(1000, 800);
-        camera.frame(mesh.positions, Vec3(0, 0, 1));
-        editor.radius = 0.5;
-    }
-
+struct Table : test::EditedSphere {
     void move(double x, double y) {
         InputEvent event;
         event.x = x;

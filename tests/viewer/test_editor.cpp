@@ -1,6 +1,5 @@
-#include "app/viewer/editor.h"
 #include "app/viewer/script.h"
-#include "engine/mesh/sample_shapes.h"
+#include "tests/viewer/edited_sphere.h"
 
 #include <catch2/catch.hpp>
 
@@ -25,20 +24,7 @@ InputEvent button(InputEvent::Kind kind, MouseButton which = MouseButton::left, 
 }
 
 /// An editor over a sphere of radius 1, seen from the front.
-struct Bench {
-    Mesh mesh = make_sample("icosphere", 2562);
-    RefinementHistory history{mesh};
-    PickSurface surface{mesh, history, mesh.positions};
-    OrbitCamera camera;
-    Editor editor;
-
-    Bench() {
-        camera.set_window(1000, 800);
-        camera.frame(mesh.positions, Vec3(0, 0, 1));
-        editor.radius = 0.5;
-    }
-
-    void send(const InputEvent& event) { editor.handle(event, camera, &surface); }
+struct Bench : test::EditedSphere {
     void move(double x, double y, Modifiers held = {}) { send(move_to(x, y, held)); }
     void press(Modifiers held = {}) { send(button(InputEvent::Kind::press, MouseButton::left, held)); }
     void release() { send(button(InputEvent::Kind::release)); }

@@ -1,8 +1,7 @@
-#include "app/viewer/editor.h"
 #include "app/viewer/recorded_path.h"
 #include "app/viewer/script.h"
 #include "engine/edit/handle_path.h"
-#include "engine/mesh/sample_shapes.h"
+#include "tests/viewer/edited_sphere.h"
 
 #include <catch2/catch.hpp>
 #include <numbers>
@@ -23,17 +22,8 @@ double apart(const Vec3& p, const std::vector<Vec3>& line) {
 }
 
 /// An editor over a sphere of radius 1, seen from the front, with the point in the middle in hand.
-struct Bench {
-    Mesh mesh = make_sample("icosphere", 2562);
-    RefinementHistory history{mesh};
-    PickSurface surface{mesh, history, mesh.positions};
-    OrbitCamera camera;
-    Editor editor;
-
+struct Bench : test::EditedSphere {
     Bench() {
-        camera.set_window(1000, 800);
-        camera.frame(mesh.positions, Vec3(0, 0, 1));
-        editor.radius = 0.5;
         editor.follow_path = true;
         move(500, 400);
         send(InputEvent::Kind::press);
