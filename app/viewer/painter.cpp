@@ -2,15 +2,28 @@
 
 #include "engine/gpu/volume_texture.h"
 
+#include <algorithm>
+#include <array>
+#include <chrono>
 #include <imgui.h>
 
 namespace anvil {
 
 namespace {
 
-/// Drawn in linear light; the window's image takes the same bytes as they are.
-vk::Format scene_format(vk::Format window) {
-    return window == vk::Format::eB8G8R8A8Unorm ? vk::Format::eB8G8R8A8Srgb : vk::Format::eR8G8B8A8Srgb;
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+constexpr vk::ImageSubresourceLayers one_layer{.aspectMask = vk::ImageAspectFlagBits::eColor,
+                                               .layerCount = 1};
+
+constexpr WindowSize warm_up_size{64, 64};
+
+vk::Extent3D extent_of(WindowSize size) {
+    return {static_cast<uint32_t>(size.width), static_cast<uint32_t>(size.height), 1};
 }
 
 vk::SemaphoreSubmitInfo at_all_stages(vk::Semaphore semaphore) {
@@ -21,7 +34,7 @@ vk::SemaphoreSubmitInfo at_all_stages(vk::Semaphore semaphore) {
 
 Painter::Painter(Device& device, const Window& window)
     : device_(device.state()), swapchain_(device_, window), ui_(device_, swapchain_.format()),
-      commands_(device_) {}
+      picture_(device_, swapchain_.format(), draws_on_cpu()), commands_(device_) {}
 
 Painter::~Painter() {
     try {
@@ -35,80 +48,91 @@ bool Painter::draws_on_cpu() const {
     return device_.info.type == DeviceType::cpu;
 }
 
-Painter::Canvas& Painter::canvas(bool fine) {
-    const vk::SampleCountFlagBits samples =
-        fine ? RenderTarget::sample_count(device_) : vk::SampleCountFlagBits::e1;
-    std::optional<Canvas>& canvas = fine ? fine_ : plain_;
-    if (!canvas) {
-        const TargetFormat format{scene_format(swapchain_.format()), RenderTarget::depth_format(device_),
-                                  samples};
-        canvas.emplace(Canvas{format, ScenePass(device_, format), std::nullopt, {}, {}});
-    }
-    if (!canvas->target || canvas->size != swapchain_.size()) {
-        canvas->shown.reset();
-        canvas->size = swapchain_.size();
-        canvas->target.emplace(device_, static_cast<uint32_t>(canvas->size.width),
-                               static_cast<uint32_t>(canvas->size.height), samples, canvas->format.colour);
-    }
-    return *canvas;
+void Painter::wait() {
+    const auto start = Clock::now();
+    commands_.wait();
+    picture_.took(handing_over_ + milliseconds_since(start));
 }
 
-bool Painter::paint(const Scene& scene, const ImDrawData& panels, bool fine) {
-    commands_.wait(); // what the last frame read may change now
+void Painter::warm_up() {
+    const Scene scene = scene_of_all_kinds(device_);
+    for (const bool fine : {false, true}) {
+        if (fine || draws_on_cpu()) { // others draw finely always
+            picture_.prepare(scene, {warm_up_size, fine, true});
+            const vk::raii::CommandBuffer& commands = commands_.begin();
+            guarded("drawing", [&] { picture_.record(commands); });
+            commands_.submit();
+            commands_.wait();
+        }
+    }
+}
+
+Painted Painter::paint(const Scene& scene, const ImDrawData& panels, bool fine, bool kept, FrameLog& log) {
+    log.enter(FramePart::device);
+    wait(); // what the last frame read may change now
+    log.enter(FramePart::image);
     const std::optional<WindowImage> image = swapchain_.acquire();
     if (!image) {
-        return false;
+        return Painted::nothing;
     }
-    Canvas& drawn_to = canvas(fine);
-    // While only panels and marks change, the surface is not drawn again.
-    const bool drawn = drawn_to.shown == scene;
-    if (!drawn) {
-        drawn_to.pass.prepare(scene);
-        for (std::optional<Canvas>* other :
-             {&plain_, &fine_}) { // one scene is kept from being freed, not two
-            if (*other) {
-                (*other)->shown.reset();
-            }
-        }
-        drawn_to.shown = scene;
-    }
+    log.enter(FramePart::preparing);
+    log.draws(picture_.prepare(scene, {swapchain_.size(), fine, kept}));
+    log.enter(FramePart::recording);
     const vk::raii::CommandBuffer& commands = commands_.begin();
-    guarded("drawing", [&] { record(commands, drawn_to, *image, drawn, panels); });
+    guarded("drawing", [&] { record(commands, *image, panels, kept); });
+    log.enter(FramePart::submitting);
+    const auto start = Clock::now();
     commands_.submit(at_all_stages(swapchain_.acquired()), at_all_stages(swapchain_.drawn(*image)));
-    swapchain_.show(*image);
-    return true;
+    log.enter(FramePart::showing);
+    swapchain_.show(*image); // some drivers wait here
+    handing_over_ = milliseconds_since(start);
+    return picture_.complete() ? Painted::all : Painted::in_part;
 }
 
-void Painter::record(const vk::raii::CommandBuffer& commands, Canvas& canvas, const WindowImage& image,
-                     bool drawn, const ImDrawData& panels) {
-    full_barrier(commands); // the places that a drag has submitted
-    if (!drawn) {
-        canvas.target->begin(commands);
-        canvas.pass.record(commands, *canvas.shown);
-        canvas.target->end(commands);
-    }
-    const vk::Extent2D extent{static_cast<uint32_t>(canvas.size.width),
-                              static_cast<uint32_t>(canvas.size.height)};
-    const vk::ImageSubresourceLayers layer{.aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1};
+/// Where the window has become larger, what the picture does not cover is dark until there is a new one.
+void Painter::copy_picture(const vk::raii::CommandBuffer& commands, const WindowImage& image) const {
+    const WindowSize from = picture_.size();
+    const WindowSize to = swapchain_.size();
     change_layout(commands, image.image, vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal);
-    commands.copyImage(canvas.target->colour(), vk::ImageLayout::eTransferSrcOptimal, image.image,
-                       vk::ImageLayout::eTransferDstOptimal,
-                       vk::ImageCopy{.srcSubresource = layer,
-                                     .dstSubresource = layer,
-                                     .extent = {extent.width, extent.height, 1}});
+    if (from != to) {
+        commands.clearColorImage(image.image, vk::ImageLayout::eTransferDstOptimal,
+                                 vk::ClearColorValue(std::array{0.1F, 0.1F, 0.1F, 1.0F}),
+                                 vk::ImageSubresourceRange{.aspectMask = vk::ImageAspectFlagBits::eColor,
+                                                           .levelCount = 1,
+                                                           .layerCount = 1});
+        full_barrier(commands);
+    }
+    const WindowSize both{std::min(from.width, to.width), std::min(from.height, to.height)};
+    commands.copyImage(
+        picture_.image(), vk::ImageLayout::eTransferSrcOptimal, image.image,
+        vk::ImageLayout::eTransferDstOptimal,
+        vk::ImageCopy{.srcSubresource = one_layer, .dstSubresource = one_layer, .extent = extent_of(both)});
     change_layout(commands, image.image, vk::ImageLayout::eTransferDstOptimal,
                   vk::ImageLayout::eColorAttachmentOptimal);
+}
+
+void Painter::record(const vk::raii::CommandBuffer& commands, const WindowImage& image,
+                     const ImDrawData& panels, bool kept) {
+    full_barrier(commands); // the places that a drag has submitted
+    picture_.record(commands);
+    copy_picture(commands, image);
     const vk::RenderingAttachmentInfo colour{.imageView = image.view,
                                              .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
                                              .loadOp = vk::AttachmentLoadOp::eLoad,
                                              .storeOp = vk::AttachmentStoreOp::eStore};
-    commands.beginRendering({.renderArea = {{0, 0}, extent},
+    const vk::Extent3D extent = extent_of(swapchain_.size());
+    commands.beginRendering({.renderArea = {{0, 0}, {extent.width, extent.height}},
                              .layerCount = 1,
                              .colorAttachmentCount = 1,
                              .pColorAttachments = &colour});
     ui_.record(commands, panels);
     commands.endRendering();
-    keep_picture(commands, image);
+    if (kept) {
+        keep_picture(commands, image);
+    }
+    change_layout(commands, image.image,
+                  kept ? vk::ImageLayout::eTransferSrcOptimal : vk::ImageLayout::eColorAttachmentOptimal,
+                  vk::ImageLayout::ePresentSrcKHR);
 }
 
 void Painter::keep_picture(const vk::raii::CommandBuffer& commands, const WindowImage& image) {
@@ -122,19 +146,14 @@ void Painter::keep_picture(const vk::raii::CommandBuffer& commands, const Window
                   vk::ImageLayout::eTransferSrcOptimal);
     commands.copyImageToBuffer(
         image.image, vk::ImageLayout::eTransferSrcOptimal, pixels_.handle(),
-        vk::BufferImageCopy{
-            .imageSubresource = {.aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1},
-            .imageExtent = {static_cast<uint32_t>(pixels_size_.width),
-                            static_cast<uint32_t>(pixels_size_.height), 1}});
-    change_layout(commands, image.image, vk::ImageLayout::eTransferSrcOptimal,
-                  vk::ImageLayout::ePresentSrcKHR);
+        vk::BufferImageCopy{.imageSubresource = one_layer, .imageExtent = extent_of(pixels_size_)});
 }
 
 Picture Painter::picture() {
     if (pixels_size_.empty()) {
         throw InternalError("a picture was asked for before the first frame");
     }
-    commands_.wait();
+    wait();
     Picture picture{static_cast<uint32_t>(pixels_size_.width), static_cast<uint32_t>(pixels_size_.height),
                     std::vector<uint8_t>(pixels_.size())};
     pixels_.read(0, std::as_writable_bytes(std::span(picture.rgba)));

@@ -1,16 +1,22 @@
 // Frames: a scene and panels over it, shown in the window.
 #pragma once
 
-#include "app/viewer/scene_pass.h"
+#include "app/viewer/frame_log.h"
+#include "app/viewer/scene_picture.h"
 #include "app/viewer/swapchain.h"
 #include "app/viewer/ui_pass.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/picture.h"
-#include "engine/gpu/render_target.h"
 
 #include <optional>
 
 namespace anvil {
+
+enum class Painted : uint8_t {
+    nothing, ///< the window has nothing to show it in
+    in_part, ///< the scene is not all there: paint again
+    all
+};
 
 class Painter {
   public:
@@ -18,38 +24,34 @@ class Painter {
     Painter(Device& device, const Window& window);
     ~Painter();
 
-    /// Draws and shows; waits for the frame before. `fine`: several samples a pixel. False where the window
-    /// has nothing to show it in. @throws DeviceError
-    bool paint(const Scene& scene, const ImDrawData& panels, bool fine);
+    /// Draws one of each kind of thing where nobody sees it: drivers compile shaders only when they are used
+    /// first, which takes a CPU a second. @throws DeviceError
+    void warm_up();
 
-    /// The last frame. @throws DeviceError; InternalError before the first
+    /// Draws and shows, with whatever of the scene is drawn so far; waits for the frame before. `fine`:
+    /// several samples a pixel. `kept`: all of the scene, however long it takes, and for picture().
+    /// @throws DeviceError
+    Painted paint(const Scene& scene, const ImDrawData& panels, bool fine, bool kept, FrameLog& log);
+
+    /// The last frame that was kept. @throws DeviceError; InternalError before the first
     Picture picture();
 
     /// Several samples a pixel cost as much as so many windows where the CPU draws.
     bool draws_on_cpu() const;
 
   private:
-    /// Where a scene is drawn to, and how.
-    struct Canvas {
-        TargetFormat format;
-        ScenePass pass;
-        std::optional<RenderTarget> target;
-        WindowSize size;
-        std::optional<Scene> shown; ///< what the target holds; nothing: it is to be drawn
-    };
-
-    Canvas& canvas(bool fine);
-    /// `drawn`: the target holds the scene already.
-    void record(const vk::raii::CommandBuffer& commands, Canvas& canvas, const WindowImage& image, bool drawn,
-                const ImDrawData& panels);
+    void wait();
+    void record(const vk::raii::CommandBuffer& commands, const WindowImage& image, const ImDrawData& panels,
+                bool kept);
+    void copy_picture(const vk::raii::CommandBuffer& commands, const WindowImage& image) const;
     void keep_picture(const vk::raii::CommandBuffer& commands, const WindowImage& image);
 
     DeviceState& device_;
     Swapchain swapchain_;
     UiPass ui_;
-    std::optional<Canvas> plain_;
-    std::optional<Canvas> fine_;
-    Buffer pixels_; ///< the last frame
+    ScenePicture picture_;
+    double handing_over_ = 0; ///< milliseconds that the last frame took
+    Buffer pixels_;           ///< the last frame
     WindowSize pixels_size_;
     Commands commands_;
 };

@@ -5,6 +5,7 @@
 #include "embedded/mesh.frag.h"
 #include "embedded/mesh.vert.h"
 
+#include <algorithm>
 #include <array>
 
 namespace anvil {
@@ -138,37 +139,65 @@ void ScenePass::bind(const vk::raii::CommandBuffer& commands, const SceneItem& i
     commands.pushDescriptorSetKHR(vk::PipelineBindPoint::eGraphics, *layout_, 0, writes);
 }
 
-void ScenePass::draw(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& pipeline,
-                     const SceneItem& item, const Scene& scene, bool lines) const {
-    const DrawnIndices& indices = item.indices ? *item.indices : item.mesh->indices;
-    const uint32_t count = lines ? indices.line_indices : indices.triangle_indices;
-    if (count == 0) {
-        return;
-    }
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
-    bind(commands, item);
-    commands.pushConstants<shader::MeshParameters>(*layout_, both, 0, parameters_of(item, scene, lines));
-    commands.bindIndexBuffer(lines ? indices.lines.handle() : indices.triangles.handle(), 0,
-                             vk::IndexType::eUint32);
-    commands.drawIndexed(count, 1, 0, 0, 0);
+uint32_t ScenePass::Draw::count() const {
+    return (lines ? indices().line_indices : indices().triangle_indices) / corners();
 }
 
-void ScenePass::record(const vk::raii::CommandBuffer& commands, const Scene& scene) const {
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *background_);
-    commands.draw(3, 1, 0, 0);
+std::vector<ScenePass::Draw> ScenePass::draws(const Scene& scene) const {
+    std::vector<Draw> draws;
     for (const SceneItem& item : scene.items) {
         if (!is_translucent(item)) {
-            draw(commands, opaque_, item, scene, false);
+            draws.push_back({&opaque_, &item, false});
         }
         if (item.edges) {
-            draw(commands, lines_, item, scene, true);
+            draws.push_back({&lines_, &item, true});
         }
     }
     for (const SceneItem& item : scene.items) { // farthest first: the caller's order
         if (is_translucent(item)) {
-            draw(commands, translucent_back_, item, scene, false);
-            draw(commands, translucent_front_, item, scene, false);
+            draws.push_back({&translucent_back_, &item, false});
+            draws.push_back({&translucent_front_, &item, false});
         }
+    }
+    return draws;
+}
+
+uint64_t ScenePass::size(const Scene& scene) const {
+    uint64_t size = 0;
+    for (const Draw& draw : draws(scene)) {
+        size += draw.count();
+    }
+    return size;
+}
+
+void ScenePass::record(const vk::raii::CommandBuffer& commands, const Scene& scene, const Draw& draw,
+                       uint32_t first, uint32_t last) const {
+    const DrawnIndices& indices = draw.indices();
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, **draw.pipeline);
+    bind(commands, *draw.item);
+    commands.pushConstants<shader::MeshParameters>(*layout_, both, 0,
+                                                   parameters_of(*draw.item, scene, draw.lines));
+    commands.bindIndexBuffer(draw.lines ? indices.lines.handle() : indices.triangles.handle(), 0,
+                             vk::IndexType::eUint32);
+    commands.drawIndexed((last - first) * draw.corners(), 1, first * draw.corners(), 0, 0);
+}
+
+void ScenePass::record(const vk::raii::CommandBuffer& commands, const Scene& scene, uint64_t first,
+                       uint64_t last) const {
+    if (first == 0) {
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *background_);
+        commands.draw(3, 1, 0, 0);
+    }
+    uint64_t begin = 0; // of the draw
+    for (const Draw& draw : draws(scene)) {
+        const uint64_t end = begin + draw.count();
+        const uint64_t from = std::max(first, begin);
+        const uint64_t to = std::min(last, end);
+        if (from < to) {
+            record(commands, scene, draw, static_cast<uint32_t>(from - begin),
+                   static_cast<uint32_t>(to - begin));
+        }
+        begin = end;
     }
 }
 

@@ -20,12 +20,28 @@ class ScenePass {
 
     /// Before the rendering begins: what an earlier call recorded is done.
     void prepare(const Scene& scene);
-    /// Within a rendering of the target, over nothing.
-    void record(const vk::raii::CommandBuffer& commands, const Scene& scene) const;
+    /// How many triangles and lines there are to draw; what is drawn twice counts twice.
+    uint64_t size(const Scene& scene) const;
+    /// Within a rendering of the target. A scene can be drawn in parts: of what size() counts those from
+    /// `first` up to `last`, the first ones (0) over nothing, others over what was drawn before.
+    void record(const vk::raii::CommandBuffer& commands, const Scene& scene, uint64_t first,
+                uint64_t last) const;
 
   private:
-    void draw(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& pipeline,
-              const SceneItem& item, const Scene& scene, bool lines) const;
+    /// What one call draws.
+    struct Draw {
+        const vk::raii::Pipeline* pipeline;
+        const SceneItem* item;
+        bool lines;
+
+        uint32_t corners() const { return lines ? 2 : 3; }
+        const DrawnIndices& indices() const { return item->indices ? *item->indices : item->mesh->indices; }
+        uint32_t count() const; ///< triangles or lines
+    };
+
+    std::vector<Draw> draws(const Scene& scene) const;
+    void record(const vk::raii::CommandBuffer& commands, const Scene& scene, const Draw& draw, uint32_t first,
+                uint32_t last) const;
     void bind(const vk::raii::CommandBuffer& commands, const SceneItem& item) const;
     static void number_region(DrawnMesh& mesh, const std::shared_ptr<const DrawnRegion>& region);
 

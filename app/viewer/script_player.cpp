@@ -41,8 +41,7 @@ std::string touching_of(const Shown& shown) {
 ScriptPlayer::ScriptPlayer(const std::filesystem::path& file)
     : file_(file.string()), lines_(read_script(file)) {}
 
-std::vector<InputEvent> ScriptPlayer::next(Session& session, Window& window) {
-    frames_.frame();
+std::vector<InputEvent> ScriptPlayer::next(Session& session, Window& window, FrameLog& frames) {
     if (!events_.empty()) {
         const InputEvent event = events_.front();
         events_.pop_front();
@@ -60,7 +59,7 @@ std::vector<InputEvent> ScriptPlayer::next(Session& session, Window& window) {
     while (next_ < lines_.size()) {
         const ScriptLine& line = lines_[next_++];
         try {
-            if (play(line, session, window)) {
+            if (play(line, session, window, frames)) {
                 return {};
             }
         } catch (const InputError& error) {
@@ -75,7 +74,7 @@ std::vector<InputEvent> ScriptPlayer::next(Session& session, Window& window) {
 }
 
 /// Whether a frame is to be drawn before the next line.
-bool ScriptPlayer::play(const ScriptLine& line, Session& session, Window& window) {
+bool ScriptPlayer::play(const ScriptLine& line, Session& session, Window& window, FrameLog& frames) {
     const std::vector<std::string>& with = line.arguments;
     if (line.word == "wait") {
         waiting_ = true;
@@ -119,12 +118,12 @@ bool ScriptPlayer::play(const ScriptLine& line, Session& session, Window& window
         event.modifiers = held_;
         events_.push_back(event);
     } else {
-        act(line, session, window);
+        act(line, session, window, frames);
     }
     return true;
 }
 
-void ScriptPlayer::act(const ScriptLine& line, Session& session, Window& window) {
+void ScriptPlayer::act(const ScriptLine& line, Session& session, Window& window, FrameLog& frames) {
     const std::vector<std::string>& with = line.arguments;
     if (play_occluder_line(line, session) || play_edit_line(line, session)) {
         return;
@@ -181,7 +180,7 @@ void ScriptPlayer::act(const ScriptLine& line, Session& session, Window& window)
             throw InputError("write: lose computing, or lose drawing");
         }
     } else if (line.word == "frames") {
-        std::cout << with[0] << ": " << frames_.report() << std::endl;
+        std::cout << with[0] << ": " << frames.report() << std::endl;
     } else if (play_view_word(line, session)) {
         return;
     } else if (line.word == "say") {

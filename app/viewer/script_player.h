@@ -18,19 +18,22 @@ class ScriptPlayer {
 
     /// What a person would do next, before a frame. Pictures that are wanted of the frame follow.
     /// @throws InputError naming the line: a place that is not there, an expectation that does not hold.
-    std::vector<InputEvent> next(Session& session, Window& window);
+    std::vector<InputEvent> next(Session& session, Window& window, FrameLog& frames);
     /// Files to write the frame to that is drawn now.
     std::vector<std::string> take_pictures() { return std::exchange(pictures_, {}); }
+    bool wants_picture() const { return !pictures_.empty(); }
     /// The device that draws is to fail now.
     bool take_loss() { return std::exchange(loses_, false); }
     /// A person would go on at once: nobody looks at this frame for long.
     bool busy() const { return !events_.empty() || (!waiting_ && pictures_.empty() && !done()); }
+    /// Waits for the session or the clock, not for the next frame.
+    bool resting() const { return events_.empty() && (waiting_ || FrameLog::Clock::now() < awake_at_); }
     /// All lines are played and their frames drawn.
     bool done() const { return next_ == lines_.size() && events_.empty() && !waiting_; }
 
   private:
-    bool play(const ScriptLine& line, Session& session, Window& window);
-    void act(const ScriptLine& line, Session& session, Window& window);
+    bool play(const ScriptLine& line, Session& session, Window& window, FrameLog& frames);
+    void act(const ScriptLine& line, Session& session, Window& window, FrameLog& frames);
     void expect(const ScriptLine& line, Session& session) const;
     void add_mouse(InputEvent::Kind kind, const std::vector<std::string>& arguments);
     void add_move(double x, double y);
@@ -46,7 +49,6 @@ class ScriptPlayer {
     double y_ = 0;
     bool waiting_ = false;
     int settled_frames_ = 0;
-    FrameLog frames_;
     bool loses_ = false;
     std::chrono::steady_clock::time_point awake_at_{};
     std::vector<std::string> pictures_;

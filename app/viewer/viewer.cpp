@@ -21,6 +21,8 @@ using Clock = std::chrono::steady_clock;
 constexpr WindowSize first_size{1280, 800};
 constexpr double idle_wait = 0.5;     // seconds; panels blink no faster
 constexpr double rest_before = 0.25;  // seconds without a change before a frame is drawn finely
+constexpr double work_wait = 0.04;    // seconds; progress is shown that often
+constexpr double script_wait = 0.005; // seconds
 constexpr int most_losses = 3;        // of the device that draws, in one run
 constexpr int frames_after_event = 3; // panels answer an event a frame or two later
 
@@ -57,6 +59,7 @@ class Viewer {
     }
 
     void run() {
+        painter_.warm_up(); // while the worker opens the file
         while (!ended()) {
             frame();
         }
@@ -83,7 +86,9 @@ class Viewer {
     bool unattended() const { return player_ || !options_.screenshot.empty(); }
 
     void frame() {
+        log_.frame();
         take_events();
+        log_.enter(FramePart::session);
         session_.update();
         const WindowSize size = window_.framebuffer_size();
         hidden_ = size.empty(); // minimized
@@ -92,6 +97,7 @@ class Viewer {
         }
         session_.camera.set_window(size.width, size.height);
         const auto start = Clock::now();
+        log_.enter(FramePart::panels);
         ui_.begin_frame(size, seconds_since(last_frame_));
         last_frame_ = start;
         const bool bare = panels_.files.wants_picture();
@@ -107,9 +113,14 @@ class Viewer {
         // that takes it seconds.
         const bool many = session_.shown().look->coarse != nullptr;
         const bool fine = !painter_.draws_on_cpu() || ((resting() || bare) && !many);
-        fine_ = painter_.paint(session_.scene(), *ImGui::GetDrawData(), fine) && fine;
+        const Painted painted =
+            painter_.paint(session_.scene(), *ImGui::GetDrawData(), fine, bare || wants_picture(), log_);
+        fine_ = fine && painted == Painted::all;
+        in_part_ = painted == Painted::in_part;
+        log_.enter(FramePart::pictures);
         times_.milliseconds = 1000 * seconds_since(start);
-        painted_settled_ = session_.settled() && session_.shown().mesh ? painted_settled_ + 1 : 0;
+        painted_settled_ =
+            session_.settled() && session_.shown().mesh && !in_part_ ? painted_settled_ + 1 : 0;
         write_pictures();
         write_wanted_pictures(bare);
         complain_of_nothing();
@@ -130,21 +141,45 @@ class Viewer {
         return seconds_since(last_change_) > rest_before;
     }
 
+    /// A file is written of what is drawn next.
+    bool wants_picture() const {
+        return (player_ && player_->wants_picture()) ||
+               (!options_.screenshot.empty() && (!player_ || player_->done()));
+    }
+
+    /// How long nothing needs to be drawn, unless something happens. What the worker does has cores of its
+    /// own that way.
+    double patience() const {
+        if (hidden_) {
+            return idle_wait;
+        }
+        if (in_part_ || frames_due_ > 0) {
+            return 0;
+        }
+        if (unattended()) {
+            return session_.settled() && !(player_ && player_->resting()) ? 0 : script_wait;
+        }
+        return !session_.settled() ? work_wait : fine_ ? idle_wait : rest_before;
+    }
+
     void take_events() {
-        const bool hurry = !hidden_ && (frames_due_ > 0 || unattended());
-        std::vector<InputEvent> events = window_.take_events(hurry ? 0 : fine_ ? idle_wait : rest_before);
+        const double wait = patience();
+        log_.enter(wait > 0 ? FramePart::idle : FramePart::events);
+        std::vector<InputEvent> events = window_.take_events(wait);
+        log_.enter(FramePart::events);
         if (player_) {
             // Nobody is there: what the window itself says of mouse and keys would disturb the script.
             std::erase_if(events, [](const InputEvent& e) { return e.kind != InputEvent::Kind::close; });
-            const std::vector<InputEvent> played = player_->next(session_, window_);
+            const std::vector<InputEvent> played = player_->next(session_, window_, log_);
             events.insert(events.end(), played.begin(), played.end());
         }
         for (const InputEvent& event : events) {
             handle(event);
         }
-        const bool changed = !events.empty() || !session_.settled() || Ui::active();
+        const bool changed = !events.empty() || Ui::active() || shown_ != &session_.shown();
+        shown_ = &session_.shown();
         frames_due_ = changed ? frames_after_event : std::max(frames_due_ - 1, 0);
-        if (changed) {
+        if (changed || !session_.settled()) {
             last_change_ = Clock::now();
         }
     }
@@ -208,11 +243,14 @@ class Viewer {
     Panels panels_;
     ScriptPlayer* player_ = nullptr;
     FrameTimes times_;
+    FrameLog log_;
     Clock::time_point last_frame_ = Clock::now();
     Clock::time_point last_change_ = Clock::now();
     int frames_due_ = frames_after_event;
     int painted_settled_ = 0;
+    const Shown* shown_ = nullptr; ///< when events were taken last
     bool fine_ = false;
+    bool in_part_ = false; ///< the picture is not all there
     bool hidden_ = false;
 };
 

@@ -71,29 +71,33 @@ RenderTarget::RenderTarget(DeviceState& device, uint32_t width, uint32_t height,
     });
 }
 
-void RenderTarget::begin(const vk::raii::CommandBuffer& commands) const {
+void RenderTarget::begin(const vk::raii::CommandBuffer& commands, Part part) const {
     const auto undefined = vk::ImageLayout::eUndefined;
     const auto drawn = vk::ImageLayout::eColorAttachmentOptimal;
-    change_layout(commands, *colour_.image, undefined, drawn);
-    if (multisampled_) {
+    const auto tested = vk::ImageLayout::eDepthAttachmentOptimal;
+    const auto left_in = [&](vk::ImageLayout layout) { return part.first ? undefined : layout; };
+    const bool resolves = multisampled_ && part.last;
+    change_layout(commands, *colour_.image, left_in(drawn), drawn);
+    if (resolves) {
         change_layout(commands, *resolved_.image, undefined, drawn);
     }
-    change_layout(commands, *depth_.image, undefined, vk::ImageLayout::eDepthAttachmentOptimal,
-                  vk::ImageAspectFlagBits::eDepth);
+    change_layout(commands, *depth_.image, left_in(tested), tested, vk::ImageAspectFlagBits::eDepth);
+    const auto load = part.first ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eLoad;
+    const auto keep = part.last ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore;
     vk::RenderingAttachmentInfo colour{.imageView = *colour_.view,
                                        .imageLayout = drawn,
-                                       .loadOp = vk::AttachmentLoadOp::eClear,
+                                       .loadOp = load,
                                        .storeOp = vk::AttachmentStoreOp::eStore};
-    if (multisampled_) {
+    if (resolves) {
         colour.resolveMode = vk::ResolveModeFlagBits::eAverage;
         colour.resolveImageView = *resolved_.view;
         colour.resolveImageLayout = drawn;
-        colour.storeOp = vk::AttachmentStoreOp::eDontCare;
+        colour.storeOp = keep;
     }
     const vk::RenderingAttachmentInfo depth{.imageView = *depth_.view,
-                                            .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
-                                            .loadOp = vk::AttachmentLoadOp::eClear,
-                                            .storeOp = vk::AttachmentStoreOp::eDontCare,
+                                            .imageLayout = tested,
+                                            .loadOp = load,
+                                            .storeOp = keep,
                                             .clearValue = vk::ClearDepthStencilValue{1.0F, 0}};
     const vk::Rect2D area{{0, 0}, {width_, height_}};
     commands.beginRendering({.renderArea = area,
@@ -106,8 +110,11 @@ void RenderTarget::begin(const vk::raii::CommandBuffer& commands) const {
     commands.setScissor(0, area);
 }
 
-void RenderTarget::end(const vk::raii::CommandBuffer& commands) const {
+void RenderTarget::end(const vk::raii::CommandBuffer& commands, bool last) const {
     commands.endRendering();
+    if (!last) {
+        return;
+    }
     change_layout(commands, colour(), vk::ImageLayout::eColorAttachmentOptimal,
                   vk::ImageLayout::eTransferSrcOptimal);
 }

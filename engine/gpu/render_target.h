@@ -22,10 +22,17 @@ class RenderTarget {
     RenderTarget(DeviceState& device, uint32_t width, uint32_t height, vk::SampleCountFlagBits samples,
                  vk::Format format = colour_format);
 
-    /// Starts drawing over a cleared picture (dynamic rendering), viewport and scissor set.
-    void begin(const vk::raii::CommandBuffer& commands) const;
-    /// Ends drawing; the picture is ready to be copied from colour().
-    void end(const vk::raii::CommandBuffer& commands) const;
+    /// A picture may be drawn in parts, each with a begin() and end() of its own.
+    struct Part {
+        bool first = true;
+        bool last = true;
+    };
+
+    /// Starts drawing (dynamic rendering), viewport and scissor set: the first part over a cleared picture.
+    void begin(const vk::raii::CommandBuffer& commands, Part part) const;
+    void begin(const vk::raii::CommandBuffer& commands) const { begin(commands, Part{}); }
+    /// Ends drawing; after the last part the picture is ready to be copied from colour().
+    void end(const vk::raii::CommandBuffer& commands, bool last = true) const;
     vk::Image colour() const { return *(multisampled_ ? resolved_ : colour_).image; }
 
     /// Depth format that every device of this kind can draw to.

@@ -1,0 +1,117 @@
+#include "app/viewer/scene_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace anvil {
+
+Scene scene_of_all_kinds(DeviceState& device) {
+    Mesh mesh;
+    mesh.positions = {{-1, -1, 0.5}, {1, -1, 0.5}, {0, 1, 0.5}};
+    mesh.add_polygon(std::array<uint32_t, 3>{0, 1, 2});
+    triangulate(mesh);
+    SceneItem solid;
+    solid.mesh = std::make_shared<DrawnMesh>(device, mesh, mesh.positions, Vec3(0), false);
+    solid.edges = true;
+    SceneItem translucent = solid;
+    translucent.edges = false;
+    translucent.colour.a = 0.5F;
+    Scene scene;
+    scene.items = {solid, translucent};
+    return scene;
+}
+
+bool ScenePicture::Sight::serves(const Scene& wanted, const PictureWish& wish) const {
+    return drawn && drawn->size == wish.size && (fine || !wish.fine) && scene == wanted;
+}
+
+ScenePicture::ScenePicture(DeviceState& device, vk::Format window, bool in_parts)
+    : device_(device),
+      // Drawn in linear light; the window's image takes the same bytes as they are.
+      format_(window == vk::Format::eB8G8R8A8Unorm ? vk::Format::eB8G8R8A8Srgb : vk::Format::eR8G8B8A8Srgb),
+      in_parts_(in_parts) {}
+
+ScenePicture::Canvas& ScenePicture::canvas(bool fine) {
+    std::optional<Canvas>& canvas = fine ? fine_ : plain_;
+    if (!canvas) {
+        const vk::SampleCountFlagBits samples =
+            fine ? RenderTarget::sample_count(device_) : vk::SampleCountFlagBits::e1;
+        const TargetFormat format{format_, RenderTarget::depth_format(device_), samples};
+        canvas.emplace(Canvas{format, ScenePass(device_, format), {}, {}});
+    }
+    return *canvas;
+}
+
+/// A picture of this size that is not shown.
+std::shared_ptr<ScenePicture::Drawn> ScenePicture::unused(Canvas& canvas, WindowSize size) const {
+    std::erase_if(canvas.drawn, [&](const auto& drawn) { return drawn->size != size; });
+    for (const std::shared_ptr<Drawn>& drawn : canvas.drawn) {
+        if (drawn != shown_.drawn) {
+            return drawn;
+        }
+    }
+    return canvas.drawn.emplace_back(std::make_shared<Drawn>(
+        Drawn{RenderTarget(device_, static_cast<uint32_t>(size.width), static_cast<uint32_t>(size.height),
+                           canvas.format.samples, canvas.format.colour),
+              size}));
+}
+
+/// Whether what grows is given up for this scene.
+bool ScenePicture::gives_way(const Scene& scene, const PictureWish& wish) {
+    return wish.whole || growing_.drawn->size != wish.size || (growing_.fine && !wish.fine) ||
+           growing_.scene == scene ||
+           canvas(wish.fine).pass.size(scene) <= canvas(wish.fine).part_size.next();
+}
+
+void ScenePicture::begin(const Scene& scene, const PictureWish& wish) {
+    growing_ = {};
+    Canvas& drawn_to = canvas(wish.fine);
+    drawn_to.pass.prepare(scene);
+    growing_ = {scene, wish.fine, unused(drawn_to, wish.size)};
+    full_size_ = drawn_to.pass.size(scene);
+    grown_ = 0;
+}
+
+FrameKind ScenePicture::prepare(const Scene& scene, const PictureWish& wish) {
+    complete_ = shown_.serves(scene, wish);
+    draws_ = !complete_;
+    if (complete_) {
+        growing_ = {};
+        return FrameKind::panels;
+    }
+    if (!growing_.drawn || (!growing_.serves(scene, wish) && gives_way(scene, wish))) {
+        begin(scene, wish);
+    }
+    const bool at_once = wish.whole || !in_parts_ || !shown_.drawn; // nothing else could be shown meanwhile
+    const uint64_t part = at_once ? full_size_ : canvas(growing_.fine).part_size.next();
+    part_end_ = std::min(full_size_, grown_ + part);
+    const bool last = part_end_ == full_size_;
+    complete_ = last && growing_.serves(scene, wish);
+    return last && grown_ == 0 ? FrameKind::whole_surface : FrameKind::part_of_surface;
+}
+
+void ScenePicture::record(const vk::raii::CommandBuffer& commands) {
+    if (!draws_) {
+        return;
+    }
+    const bool last = part_end_ == full_size_;
+    const RenderTarget& target = growing_.drawn->target;
+    target.begin(commands, {grown_ == 0, last});
+    canvas(growing_.fine).pass.record(commands, *growing_.scene, grown_, part_end_);
+    target.end(commands, last);
+    if (last) {
+        shown_ = std::exchange(growing_, {});
+    }
+}
+
+void ScenePicture::took(double milliseconds) {
+    if (draws_) {
+        const bool fine = growing_.drawn ? growing_.fine : shown_.fine;
+        canvas(fine).part_size.took(part_end_ - grown_, milliseconds);
+        grown_ = part_end_;
+        draws_ = false;
+    }
+}
+
+} // namespace anvil
