@@ -2,7 +2,7 @@
 
 #include "engine/core/error.h"
 #include "engine/deform/lasting_backend.h"
-#include "engine/gpu/gpu_backend.h"
+#include "engine/gpu/search_device.h"
 
 #include <algorithm>
 
@@ -27,20 +27,20 @@ std::vector<DeviceInfo> devices_or_none(Log& log) {
     }
 }
 
-ChosenBackend open_backend(const std::string& device) {
+ChosenBackend open_backend(const std::string& device, DeviceBaking baking) {
     if (device == "cpu") {
         return {make_cpu_backend(), nullptr};
     }
     DeviceOptions options;
     options.choice = device;
     auto opened = std::make_shared<Device>(options);
-    auto backend = make_gpu_backend(opened);
+    auto backend = make_gpu_backend(opened, {.baking = baking});
     return {std::move(backend), std::move(opened)};
 }
 
-ChosenBackend open_lasting(const std::string& device, Log& log) {
+ChosenBackend open_lasting(const std::string& device, Log& log, DeviceBaking baking) {
     try {
-        ChosenBackend opened = open_backend(device);
+        ChosenBackend opened = open_backend(device, baking);
         opened.backend = std::make_unique<LastingBackend>(std::move(opened.backend), log);
         return opened;
     } catch (const DeviceError& error) {
@@ -49,15 +49,42 @@ ChosenBackend open_lasting(const std::string& device, Log& log) {
     }
 }
 
-ChosenBackend choose_backend(const std::string& device, Log& log) {
+ChosenBackend choose_backend(const std::string& device, Log& log, DeviceBaking baking) {
     if (device != "auto") {
-        return open_backend(device);
+        return open_backend(device, baking);
     }
     const std::optional<size_t> chosen = automatic_device(devices_or_none(log));
     if (!chosen) {
         return open_backend("cpu");
     }
-    return open_lasting(std::to_string(*chosen), log);
+    return open_lasting(std::to_string(*chosen), log, baking);
+}
+
+ChosenSearch choose_search(const std::string& device, Log& log) {
+    if (device == "cpu") {
+        return {};
+    }
+    const auto open = [](const std::string& choice) {
+        ChosenSearch chosen;
+        chosen.device = std::make_shared<Device>(DeviceOptions{.choice = choice});
+        chosen.search = make_search_device(chosen.device);
+        return chosen;
+    };
+    if (device != "auto") {
+        return open(device);
+    }
+    const std::optional<size_t> gpu = automatic_device(devices_or_none(log));
+    if (!gpu) {
+        return {};
+    }
+    try {
+        ChosenSearch chosen = open(std::to_string(*gpu));
+        chosen.lasting = std::make_unique<LastingSearchDevice>(*chosen.search, log);
+        return chosen;
+    } catch (const DeviceError& error) {
+        log.warn(std::string(error.what()) + "; the CPU is used");
+        return {};
+    }
 }
 
 void check_validation(const std::shared_ptr<Device>& device) {

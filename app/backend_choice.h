@@ -3,7 +3,8 @@
 
 #include "engine/core/log.h"
 #include "engine/deform/backend.h"
-#include "engine/gpu/device.h"
+#include "engine/gpu/gpu_backend.h"
+#include "engine/mesh/lasting_search.h"
 
 #include <memory>
 #include <optional>
@@ -27,16 +28,30 @@ std::vector<DeviceInfo> devices_or_none(Log& log);
 
 /// `cpu`: the double-precision reference; anything else: a Vulkan device as choose_device() means it.
 /// @throws DeviceError
-ChosenBackend open_backend(const std::string& device);
+ChosenBackend open_backend(const std::string& device, DeviceBaking baking = DeviceBaking::on_gpus);
 
 /// open_backend() of a Vulkan device, with the CPU back end to go on with where the device fails, now or
 /// later: a warning says so.
-ChosenBackend open_lasting(const std::string& device, Log& log);
+ChosenBackend open_lasting(const std::string& device, Log& log, DeviceBaking baking = DeviceBaking::on_gpus);
 
 /// open_backend(), but `auto` as above: without any Vulkan device it warns and computes
 /// on the CPU, and a GPU that fails is followed by the CPU. Anything else: a Vulkan device as choose_device()
 /// means it. @throws DeviceError
-ChosenBackend choose_backend(const std::string& device, Log& log);
+ChosenBackend choose_backend(const std::string& device, Log& log,
+                             DeviceBaking baking = DeviceBaking::on_gpus);
+
+/// What fields are baked with where nothing is deformed.
+struct ChosenSearch {
+    std::shared_ptr<Device> device; ///< nullptr: the CPU
+    std::unique_ptr<SearchDevice> search;
+    std::unique_ptr<LastingSearchDevice> lasting;
+
+    SearchDevice* get() const { return lasting ? lasting.get() : search.get(); }
+};
+
+/// `cpu`: nothing; `auto`: a GPU if there is one, whose failure is a warning; anything else: a Vulkan device
+/// as choose_device() means it. @throws DeviceError
+ChosenSearch choose_search(const std::string& device, Log& log);
 
 /// For the end of a command that used the device (nullptr: none).
 /// @throws InternalError if the validation layer is on and objected to anything.

@@ -27,46 +27,50 @@ Yardstick exact_yardstick(const std::shared_ptr<const ExactDistance>& solid) {
             }};
 }
 
-ReadyCase bake_case(size_t vertices, FieldKind kind, uint32_t resolution) {
+/// Bakes the field; its bytes.
+size_t baked_bytes(const ExactDistance& solid, const Field& field, SearchDevice* device) {
+    Progress unheard;
+    if (field.kind == FieldKind::dense) {
+        return bake(solid, field.resolution, unheard, device).texels.size() * sizeof(float);
+    }
+    return bake_adaptive(solid, field.resolution, unheard, device).bytes();
+}
+
+ReadyCase bake_case(size_t vertices, const Field& field, SearchDevice* device) {
     const Mesh mesh = make_sample("bust", vertices);
     const std::shared_ptr<const ExactDistance> solid = mesh_distance(mesh);
     ReadyCase ready;
     ready.vertices = mesh.vertex_count();
     ready.region = mesh.vertex_count();
-    Progress once;
-    if (kind == FieldKind::dense) {
-        ready.bytes = bake(*solid, resolution, once).texels.size() * sizeof(float);
+    ready.bytes = baked_bytes(*solid, field, device);
+    ready.work = [solid, field, device] { baked_bytes(*solid, field, device); };
+    if (device != nullptr) {
+        ready.yardsticks.push_back({"cpu", [solid, field] { baked_bytes(*solid, field, nullptr); }});
     } else {
-        ready.bytes = bake_adaptive(*solid, resolution, once).bytes();
+        ready.yardsticks.push_back(exact_yardstick(solid));
     }
-    ready.work = [solid, kind, resolution] {
-        Progress unheard;
-        if (kind == FieldKind::dense) {
-            bake(*solid, resolution, unheard);
-        } else {
-            bake_adaptive(*solid, resolution, unheard);
-        }
-    };
-    ready.yardsticks.push_back(exact_yardstick(solid));
     return ready;
 }
 
 } // namespace
 
-void add_bake_cases(std::vector<BenchCase>& cases, Workshop&, const BenchExtent& extent) {
+void add_bake_cases(std::vector<BenchCase>& cases, Workshop& workshop, const BenchExtent& extent) {
     const size_t vertices = extent.quick ? 10'000 : 50'000;
-    const auto add = [&](FieldKind kind, uint32_t resolution) {
-        const std::string name = std::string("bake/") + (kind == FieldKind::dense ? "dense" : "adaptive") +
-                                 "/" + std::to_string(resolution);
-        cases.push_back(
-            {name + "/" + size_text(vertices), [=] { return bake_case(vertices, kind, resolution); }});
+    const auto add = [&](FieldKind kind, uint32_t resolution, SearchDevice* device) {
+        const std::string name = std::string(device != nullptr ? "bake-on-device/" : "bake/") +
+                                 (kind == FieldKind::dense ? "dense" : "adaptive") + "/" +
+                                 std::to_string(resolution) + "/" + size_text(vertices);
+        cases.push_back({name, [=] { return bake_case(vertices, {kind, resolution}, device); }});
     };
-    add(FieldKind::dense, 64);
-    add(FieldKind::adaptive, 64);
+    add(FieldKind::dense, 64, nullptr);
+    add(FieldKind::adaptive, 64, nullptr);
     if (!extent.quick) {
-        add(FieldKind::dense, 128);
-        add(FieldKind::adaptive, 128);
-        add(FieldKind::adaptive, 256);
+        add(FieldKind::dense, 128, nullptr);
+        add(FieldKind::adaptive, 128, nullptr);
+        add(FieldKind::adaptive, 256, nullptr);
+    }
+    if (SearchDevice* const device = workshop.tested().search_device()) {
+        add(FieldKind::adaptive, extent.quick ? 64 : 128, device);
     }
 }
 

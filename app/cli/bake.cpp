@@ -1,3 +1,4 @@
+#include "app/backend_choice.h"
 #include "app/cli/command.h"
 #include "engine/core/error.h"
 #include "engine/edit/recipe_json.h"
@@ -15,6 +16,7 @@ struct Options {
     std::string recipe;
     std::string output;
     std::string occluder;
+    std::string device = "auto";
 };
 
 std::string names_of(const Recipe& recipe) {
@@ -44,14 +46,14 @@ const Occluder& chosen_occluder(const Recipe& recipe, const std::string& name) {
 }
 
 void bake_occluder(const Recipe& recipe, const Occluder& occluder, const std::string& output,
-                   CommandContext& context) {
+                   SearchDevice* device, CommandContext& context) {
     const uint32_t resolution = field_of(occluder).resolution;
     try {
         const auto solid = true_distance(occluder.shape, {recipe_folder(recipe), &context.log},
                                          static_cast<int>(resolution));
         const Vec3 extent = solid->bounds().high - solid->bounds().low;
         const double voxel = occluder.transform.scale * std::max({extent.x, extent.y, extent.z}) / resolution;
-        write_level_set(output, *placed(solid, occluder.transform), voxel, context.progress);
+        write_level_set(output, *placed(solid, occluder.transform), voxel, context.progress, device);
     } catch (const InputError& error) {
         throw InputError(recipe.file + ": occluder \"" + occluder.name + "\": " + error.what());
     }
@@ -67,12 +69,17 @@ void add_bake(Program& program, CommandContext& context) {
     command.positional("recipe", options->recipe, "Recipe file (JSON)");
     command.required_option("-o,--output", options->output, "Level set file: .vdb");
     command.option("--occluder", options->occluder, "Which one, where the recipe has several");
+    command.option("--device", options->device,
+                   "auto (a GPU, where there is one), cpu, or a Vulkan device by name or index");
     command.run([options, &context] {
         if (!options->output.ends_with(".vdb")) {
             throw InputError("-o " + options->output + ": a level set's file name ends in .vdb");
         }
         const Recipe recipe = read_recipe(options->recipe);
-        bake_occluder(recipe, chosen_occluder(recipe, options->occluder), options->output, context);
+        const Occluder& occluder = chosen_occluder(recipe, options->occluder);
+        const ChosenSearch device = choose_search(options->device, context.log);
+        bake_occluder(recipe, occluder, options->output, device.get(), context);
+        check_validation(device.device);
     });
 }
 

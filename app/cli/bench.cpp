@@ -20,10 +20,10 @@ struct Options {
 };
 
 /// Unlike elsewhere `auto` takes Vulkan on a CPU too, where there is no GPU: it is what is to be measured,
-/// and the CPU back end stands beside it in any case.
+/// and the CPU back end stands beside it in any case. It bakes too, faster or not.
 ChosenBackend backend_to_measure(const std::string& device, Log& log) {
     const bool none = device == "auto" && devices_or_none(log).empty();
-    return open_backend(none ? "cpu" : device);
+    return open_backend(none ? "cpu" : device, DeviceBaking::always);
 }
 
 void compare(const BenchRun& before, const BenchRun& now, const std::string& file, Log& log) {

@@ -27,6 +27,7 @@ struct ForgeArguments {
     std::string out;
     std::string mesh;
     std::string device = "auto";
+    std::string bake = "auto";
     std::string precision = "auto";
     PictureOptions picture;
     std::string report;
@@ -45,6 +46,22 @@ OutputPrecision output_precision(const std::string& name) {
         return OutputPrecision::single_precision;
     }
     return name == "double" ? OutputPrecision::double_precision : OutputPrecision::automatic;
+}
+
+DeviceBaking device_baking(const std::string& name) {
+    if (name == "device") {
+        return DeviceBaking::always;
+    }
+    return name == "cpu" ? DeviceBaking::never : DeviceBaking::on_gpus;
+}
+
+ChosenBackend chosen_backend(const ForgeArguments& arguments, Log& log) {
+    ChosenBackend chosen = choose_backend(arguments.device, log, device_baking(arguments.bake));
+    if (arguments.bake == "device" && !chosen.device) {
+        throw InputError("--bake device: the edits are computed without a Vulkan device here; name one by "
+                         "--device (see anvil devices)");
+    }
+    return chosen;
 }
 
 bool is_text(const fs::path& path) {
@@ -152,7 +169,7 @@ void run_forge(const ForgeArguments& arguments, CommandContext& context) {
     const auto load_start = Clock::now();
     const Mesh mesh = read_mesh(mesh_file, context.log);
     const double load_seconds = seconds_since(load_start);
-    const ChosenBackend chosen = choose_backend(arguments.device, context.log);
+    const ChosenBackend chosen = chosen_backend(arguments, context.log);
     const std::optional<FileCache> cache = user_cache();
     ForgeResult result =
         forge(mesh, recipe, *chosen.backend, context.log, context.progress, cache ? &*cache : nullptr);
@@ -200,6 +217,8 @@ void add_forge(Program& program, CommandContext& context) {
     command.option("-o,--output", a->out, "Mesh to write (default: the recipe's name with .forged.ply)");
     command.option("--mesh", a->mesh, "Mesh to use in place of the recipe's");
     command.option("--device", a->device, "auto, cpu (double precision), a device's name or index");
+    command.choice("--bake", a->bake, {"auto", "cpu", "device"},
+                   "Where distance fields are baked; auto: on the device if that is a GPU");
     command.choice("--precision", a->precision, {"auto", "float", "double"},
                    "Numbers of the written mesh; auto: as the input needs");
     add_picture_options(command, a->picture);

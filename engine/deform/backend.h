@@ -48,6 +48,8 @@ class Backend {
     /// Does beforehand what takes long before the first update of an edit like this one, whatever its points
     /// and fields: compiles kernels. From any thread, beside all other work. @throws DeviceError
     virtual void warm(const DeformInput& /*input*/, const DeformMotion& /*motion*/) {}
+    /// What bakes distance fields faster than the CPU does; nullptr: nothing. As long as the back end is.
+    virtual SearchDevice* search_device() { return nullptr; }
     virtual std::string device_name() const = 0;
     virtual std::string driver_name() const = 0;
 };

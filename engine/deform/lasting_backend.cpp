@@ -84,6 +84,20 @@ void LastingBackend::warm(const DeformInput& input, const DeformMotion& motion) 
     device_.warm(input, motion);
 }
 
+SearchDevice* LastingBackend::search_device() {
+    if (cpu_ || search_) {
+        return cpu_ ? nullptr : &*search_;
+    }
+    try {
+        if (SearchDevice* const device = device_.search_device()) {
+            return &search_.emplace(*device, log_);
+        }
+    } catch (const DeviceError& error) {
+        give_up(error);
+    }
+    return nullptr;
+}
+
 std::string LastingBackend::device_name() const {
     return cpu_ ? cpu_->device_name() : device_.device_name();
 }

@@ -4,6 +4,9 @@
 #include "engine/core/error.h"
 #include "engine/core/log.h"
 #include "engine/deform/backend.h"
+#include "engine/mesh/lasting_search.h"
+
+#include <optional>
 
 namespace anvil {
 
@@ -20,6 +23,8 @@ class LastingBackend final : public Backend {
     /// The sessions must not outlive it.
     std::unique_ptr<DeformSession> prepare(std::shared_ptr<const DeformInput> input) override;
     void warm(const DeformInput& input, const DeformMotion& motion) override; ///< the device, failed or not
+    /// The device's, while that is good; its errors become warnings there too.
+    SearchDevice* search_device() override;
     std::string device_name() const override;
     std::string driver_name() const override;
 
@@ -32,6 +37,7 @@ class LastingBackend final : public Backend {
     std::unique_ptr<Backend> own_;
     Backend& device_;
     std::unique_ptr<Backend> cpu_;
+    std::optional<LastingSearchDevice> search_;
     Log& log_;
 };
 

@@ -114,7 +114,7 @@ void Document::go_to(size_t step, const EditWork& work) {
 }
 
 EditOccluders Document::occluders(const Recipe& recipe, const EditWork& work) {
-    return {recipe, work.log, work.progress, options_.fields, &models_};
+    return {recipe, work.log, work.progress, options_.fields, &models_, work.backend.search_device()};
 }
 
 std::shared_ptr<const SurfaceVersion> Document::surface_before(size_t index, const EditWork& work) {

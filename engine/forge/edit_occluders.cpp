@@ -25,7 +25,8 @@ bool KeptModels::Kept::is_of(const Occluder& occluder) const {
 
 std::shared_ptr<const OccluderModel> KeptModels::model(const Occluder& occluder,
                                                        const std::filesystem::path& folder, Log& log,
-                                                       Progress& progress, const FileCache* cache) {
+                                                       Progress& progress, const FileCache* cache,
+                                                       SearchDevice* device) {
     for (const Kept& kept : kept_) {
         if (kept.folder == folder && kept.is_of(occluder)) {
             return kept.model;
@@ -33,7 +34,7 @@ std::shared_ptr<const OccluderModel> KeptModels::model(const Occluder& occluder,
     }
     const Field field = field_of(occluder);
     auto model = std::make_shared<const OccluderModel>(
-        build_model(occluder.shape, field, progress, {folder, &log}, cache));
+        build_model(occluder.shape, field, progress, {folder, &log}, cache, device));
     kept_.push_back({occluder.shape, field, folder, model});
     return model;
 }
@@ -46,7 +47,7 @@ void KeptModels::drop_all_but(const std::vector<const Occluder*>& used) {
 }
 
 EditOccluders::EditOccluders(const Recipe& recipe, Log& log, Progress& progress, const FileCache* cache,
-                             KeptModels* kept)
+                             KeptModels* kept, SearchDevice* device)
     : recipe_(recipe) {
     KeptModels own;
     KeptModels& models = kept != nullptr ? *kept : own;
@@ -54,7 +55,7 @@ EditOccluders::EditOccluders(const Recipe& recipe, Log& log, Progress& progress,
         const Occluder& occluder = recipe.occluders[i];
         try {
             models_.emplace(occluder.name,
-                            models.model(occluder, recipe_folder(recipe), log, progress, cache));
+                            models.model(occluder, recipe_folder(recipe), log, progress, cache, device));
         } catch (const InputError& error) {
             throw InputError("occluders[" + std::to_string(i) + "] \"" + occluder.name +
                              "\": " + error.what());

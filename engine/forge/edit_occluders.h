@@ -18,9 +18,11 @@ namespace anvil {
 /// Models that outlast a recipe, by shape and field. What changes in their files meanwhile is not seen.
 class KeptModels {
   public:
-    /// Baked fields come from `cache` and go there, if there is one. @throws as build_model() does.
+    /// Baked fields come from `cache` and go there, if there is one; `device`, if there is one, helps baking.
+    /// @throws as build_model() does.
     std::shared_ptr<const OccluderModel> model(const Occluder& occluder, const std::filesystem::path& folder,
-                                               Log& log, Progress& progress, const FileCache* cache);
+                                               Log& log, Progress& progress, const FileCache* cache,
+                                               SearchDevice* device);
 
     /// Lets go of those of no occluder of these.
     void drop_all_but(const std::vector<const Occluder*>& used);
@@ -43,9 +45,10 @@ class EditOccluders {
   public:
     /// Builds the models of all occluders that are not among the kept ones, and bakes those that the recipe
     /// says to. The recipe must outlive this; where its occluders are, move and how they act may change
-    /// meanwhile, their shapes and fields not. @throws InputError naming the place in the recipe; Cancelled.
+    /// meanwhile, their shapes and fields not. @throws InputError naming the place in the recipe; Cancelled;
+    /// DeviceError.
     EditOccluders(const Recipe& recipe, Log& log, Progress& progress, const FileCache* cache,
-                  KeptModels* kept = nullptr);
+                  KeptModels* kept = nullptr, SearchDevice* device = nullptr);
 
     /// Those that one edit uses, each where its pose and motion put it. `place` is "edits[i]".
     /// @throws InputError

@@ -46,7 +46,7 @@ SurfaceVersion after_edits(SurfaceVersion version, const Recipe& recipe, Backend
     std::optional<EditOccluders> occluders;
     {
         const StageTimer timer(report.seconds.bake);
-        occluders.emplace(recipe, log, progress, cache);
+        occluders.emplace(recipe, log, progress, cache, nullptr, backend.search_device());
     }
     const std::future<void> warming = warmed(recipe, *occluders, version.frame, backend);
     KeptSolvers solvers;

@@ -1,6 +1,7 @@
 #include "engine/gpu/gpu_backend.h"
 
 #include "engine/gpu/gpu_session.h"
+#include "engine/gpu/search_device.h"
 
 namespace anvil {
 
@@ -9,7 +10,8 @@ namespace {
 class GpuBackend final : public Backend {
   public:
     GpuBackend(std::shared_ptr<Device> device, const GpuBackendOptions& options)
-        : pipeline_(std::make_shared<DeformPipeline>(std::move(device))), options_(options) {}
+        : device_(device), pipeline_(std::make_shared<DeformPipeline>(std::move(device))), options_(options) {
+    }
 
     std::unique_ptr<DeformSession> prepare(std::shared_ptr<const DeformInput> input) override {
         return std::make_unique<GpuSession>(pipeline_, std::move(input), options_.chunk_bytes);
@@ -17,11 +19,22 @@ class GpuBackend final : public Backend {
     void warm(const DeformInput& input, const DeformMotion& motion) override {
         pipeline_->kernel(variant_of(input, motion));
     }
+    SearchDevice* search_device() override {
+        const bool bakes = options_.baking == DeviceBaking::on_gpus
+                               ? pipeline_->info().type != DeviceType::cpu
+                               : options_.baking == DeviceBaking::always;
+        if (bakes && !search_) {
+            search_ = make_search_device(device_);
+        }
+        return search_.get();
+    }
     std::string device_name() const override { return pipeline_->info().name; }
     std::string driver_name() const override { return pipeline_->info().driver; }
 
   private:
+    std::shared_ptr<Device> device_;
     std::shared_ptr<DeformPipeline> pipeline_;
+    std::unique_ptr<SearchDevice> search_; ///< made when it is wanted first
     GpuBackendOptions options_;
 };
 

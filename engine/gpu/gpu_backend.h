@@ -9,9 +9,14 @@
 
 namespace anvil {
 
+/// Where a device bakes distance fields: on GPUs, which do it faster than the CPU; on CPUs, lavapipe's, it is
+/// the other way round.
+enum class DeviceBaking { on_gpus, always, never };
+
 struct GpuBackendOptions {
     /// Points are worked in chunks whose buffers take at most this (and what the device binds at once).
     uint64_t chunk_bytes = uint64_t{128} << 20;
+    DeviceBaking baking = DeviceBaking::on_gpus;
 };
 
 /// Sessions upload once (float, relative to the input's local origin), submit one command buffer an update,

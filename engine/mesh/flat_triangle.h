@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/types.h"
+#include "engine/mesh/tree_types.h"
 
 #include <array>
 #include <cmath>
@@ -75,11 +76,6 @@ struct FlatTriangle {
 /// `scale` makes lengths from it that floats can square.
 FlatTriangle flattened(const std::array<Vec3, 3>& corners, double scale);
 
-/// What squared_distance() may be off where no length at work exceeds R, as a share of R^2: rounded inputs
-/// and three scalar products make at most 70 units of 2^-24, and a point beyond a corner as sharp as
-/// flattened() leaves any, taken for one inside, 97.
-inline constexpr float flat_rounding = 256 * 0x1p-24F;
-
 /// Four flat triangles.
 struct FlatFour {
     std::array<Float4, 3> x_axis;
@@ -89,25 +85,22 @@ struct FlatFour {
     void set(size_t lane, const FlatTriangle& triangle);
 };
 
-/// Squared distances of points, given from the triangles' origins: those of the origins, and what the nearest
-/// features are nearer.
+/// The formulas of the kernels, over four triangles.
+struct FlatFormulas {
+    using real = Float4;
+    static Float4 share(const Float4& x) { return clamped(x, four(1)); }
+// NOLINTBEGIN: compiled as GLSL too
+#include "shaders/shared/flat_triangle.h"
+    // NOLINTEND
+};
+
+/// Squared distances of points, given from the triangles' origins.
 inline Float4 squared_distance(const FlatFour& t, const std::array<Float4, 3>& from_origin) {
     const auto& [wx, wy, wz] = from_origin;
     const Float4 x = t.x_axis[0] * wx + t.x_axis[1] * wy + t.x_axis[2] * wz;
     const Float4 y = t.y_axis[0] * wx + t.y_axis[1] * wy + t.y_axis[2] * wz;
-    const Float4 on_ab = clamped(x, t.b);
-    const Float4 by_ab = on_ab * (on_ab - 2 * x);
-    const Float4 ac = t.cx * x + t.cy * y;
-    const Float4 on_ac = clamped(ac * t.ac2_inverse, four(1));
-    const Float4 by_ac = on_ac * (on_ac * (t.cx * t.cx + t.cy * t.cy) - 2 * ac);
-    const Float4 ex = t.cx - t.b;
-    const Float4 fx = x - t.b;
-    const Float4 bc = ex * fx + t.cy * y;
-    const Float4 on_bc = clamped(bc * t.bc2_inverse, four(1));
-    const Float4 by_bc = on_bc * (on_bc * (ex * ex + t.cy * t.cy) - 2 * bc) + t.b * (t.b - 2 * x);
-    const Float4 by_sides = least(by_ab, least(by_ac, by_bc));
-    const auto inside = least(y, least(t.cy * x - t.cx * y, ex * y - t.cy * fx)) > Float4{};
-    return wx * wx + wy * wy + wz * wz + (inside ? -(x * x + y * y) : by_sides);
+    return FlatFormulas{}.flat_squared_distance(wx * wx + wy * wy + wz * wz, x, y, t.b, t.cx, t.cy,
+                                                t.ac2_inverse, t.bc2_inverse);
 }
 
 } // namespace anvil

@@ -19,6 +19,20 @@ struct ClosestPoint {
     bool found() const { return triangle != no_index; }
 };
 
+/// Where single precision sees a search tree: around the middle of its box, in units of its diagonal.
+struct NarrowPlace {
+    Vec3 middle{0};
+    double scale = 1; ///< to units of the diagonal
+
+    glm::vec3 local(const Vec3& p) const { return glm::vec3(scale * (p - middle)); }
+};
+
+/// A search tree in single precision.
+struct NarrowTree : NarrowPlace {
+    std::vector<kernel::f32::TreeNode> nodes;
+    std::vector<kernel::f32::TreeTriangle> triangles; ///< by slot
+};
+
 /// The point of triangle abc nearest to p; `triangle` of the result is 0. Degenerate triangles (segments,
 /// points) are ordinary: the result is always a point of the triangle, to rounding the nearest.
 ClosestPoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
@@ -55,6 +69,13 @@ class SearchTree {
             return true;
         });
     }
+
+    /// Of the triangles in these slots, as narrowed() numbers them, the one nearest to a query, which is
+    /// finite; equally near ones: the lowest triangle.
+    ClosestPoint closest_of(const Vec3& query, std::span<const uint32_t> slots) const;
+
+    /// In single precision, as kernels read it. Its slots are four triangles a leaf, in the leaves' order.
+    NarrowTree narrowed() const;
 
     size_t triangle_count() const { return order_.size(); }
 
@@ -128,7 +149,7 @@ class SearchTree {
                                                 arm.z - leaf.origins[2]};
         const auto& [x, y, z] = from_origin;
         const Float4 lengths = leaf.flat.b + absolute(x) + absolute(y) + absolute(z);
-        const Float4 error = lengths * (flat_rounding * lengths + 2 * leaf.flat.slack);
+        const Float4 error = lengths * (kernel::f32::FLAT_ROUNDING * lengths + 2 * leaf.flat.slack);
         const Float4 squared = squared_distance(leaf.flat, from_origin);
         return {squared - error, squared + error};
     }

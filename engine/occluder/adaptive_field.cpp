@@ -90,8 +90,9 @@ double adaptive_tolerance(double distance) {
     return 0.05 + 0.04 * std::max(0.0, std::abs(distance) - 2);
 }
 
-AdaptiveField bake_adaptive(const ExactDistance& solid, uint32_t resolution, Progress& progress) {
-    BrickTree tree = grow_bricks(solid, layout(bakeable_box(solid), resolution), progress);
+AdaptiveField bake_adaptive(const ExactDistance& solid, uint32_t resolution, Progress& progress,
+                            SearchDevice* device) {
+    BrickTree tree = grow_bricks(solid, layout(bakeable_box(solid), resolution), progress, device);
     const std::vector<uint32_t> table = brick_table(tree);
     stitch_levels(tree, table);
     AdaptiveField field;

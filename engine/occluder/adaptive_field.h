@@ -39,8 +39,9 @@ struct AdaptiveField {
 double adaptive_tolerance(double distance);
 
 /// Samples `solid` as bake() would with `resolution` voxels along the longest side of its bounds plus
-/// padding.
-/// @throws InputError if the solid is unbounded or has no extent; Cancelled.
-AdaptiveField bake_adaptive(const ExactDistance& solid, uint32_t resolution, Progress& progress);
+/// padding. With a device, if there is one: the field is the same but where triangles are equally near.
+/// @throws InputError if the solid is unbounded or has no extent; Cancelled; DeviceError.
+AdaptiveField bake_adaptive(const ExactDistance& solid, uint32_t resolution, Progress& progress,
+                            SearchDevice* device = nullptr);
 
 } // namespace anvil

@@ -8,7 +8,8 @@ namespace anvil {
 
 namespace {
 
-constexpr size_t clusters_at_once = 64;
+constexpr size_t clusters_at_once = 64;    // a thread's worth, between two reports of progress
+constexpr size_t clusters_on_device = 256; // some 200,000 points a round
 
 /// Where a brick is wanted, and whose octant that is.
 struct Wanted {
@@ -56,8 +57,9 @@ void remove_needless(std::vector<Brick>& bricks, size_t first_finest, const std:
 /// Adds level after level to a tree.
 class BrickGrower {
   public:
-    BrickGrower(const ExactDistance& solid, BrickTree& tree, Progress& progress)
-        : solid_(solid), tree_(tree), progress_(progress), wanted_(wanted_roots(tree.layout)) {}
+    BrickGrower(const ExactDistance& solid, BrickTree& tree, Progress& progress, SearchDevice* device)
+        : solid_(solid), tree_(tree), progress_(progress), wanted_(wanted_roots(tree.layout)),
+          on_device_(device != nullptr ? solid.tracer_with(*device) : nullptr) {}
 
     void grow(int level) {
         if (level < tree_.layout.top_level) {
@@ -66,22 +68,28 @@ class BrickGrower {
         first_ = tree_.bricks.size();
         tree_.bricks.resize(first_ + wanted_.size());
         errors_.assign(wanted_.size(), 0.0);
+        parents_.clear();
         for (size_t i = 0; i < wanted_.size(); ++i) {
             tree_.bricks[first_ + i].place = wanted_[i].place;
             tree_.bricks[first_ + i].level = level;
+            if (level < tree_.layout.top_level) {
+                parents_.push_back(&tree_.bricks[wanted_[i].parent]);
+            }
         }
         const std::vector<size_t> clusters = cluster_begins();
         const size_t count = clusters.size() - 1;
-        for (size_t begin = 0; begin < count; begin += clusters_at_once) {
+        const size_t at_once = on_device_ ? clusters_on_device : clusters_at_once;
+        for (size_t begin = 0; begin < count; begin += at_once) {
             // Each level takes about four times as long as the one before.
             const double part = static_cast<double>(begin) / static_cast<double>(count);
             progress_.report("bake", std::pow(0.25, level) * (0.25 + 0.75 * part));
-            parallel_for(std::min(clusters_at_once, count - begin), 1, [&](size_t from, size_t to) {
-                BrickSampler sampler(solid_, tree_.layout);
-                for (size_t i = begin + from; i < begin + to; ++i) {
-                    sample_cluster(sampler, clusters[i], clusters[i + 1]);
-                }
-            });
+            const size_t end = std::min(begin + at_once, count);
+            const std::span<const size_t> some(&clusters[begin], end - begin + 1);
+            if (on_device_) {
+                sample_together(some);
+            } else {
+                sample_apart(some);
+            }
         }
     }
 
@@ -109,42 +117,92 @@ class BrickGrower {
         return begins;
     }
 
-    void sample_cluster(BrickSampler& sampler, size_t begin, size_t end) {
-        const std::span<Brick> children(&tree_.bricks[first_ + begin], end - begin);
-        const std::span<double> errors(&errors_[begin], children.size());
+    /// A cluster is that between two of `clusters`.
+    void begin_cluster(BrickSampler& sampler, std::span<const size_t> clusters, size_t i) {
+        const size_t begin = clusters[i];
+        const size_t count = clusters[i + 1] - begin;
+        const std::span<Brick> children(&tree_.bricks[first_ + begin], count);
+        const auto parents = std::span(parents_).subspan(parents_.empty() ? 0 : begin);
         const bool finest = children.front().level == 0;
-        std::vector<const Brick*> parents;
-        for (size_t i = begin; i < end; ++i) {
-            parents.push_back(&tree_.bricks[wanted_[i].parent]);
+        sampler.begin({children, parents.first(parents_.empty() ? 0 : count)},
+                      finest ? std::span(errors_).subspan(begin, count) : std::span<double>());
+    }
+
+    /// Each cluster by itself, on all cores.
+    void sample_apart(std::span<const size_t> clusters) {
+        parallel_for(clusters.size() - 1, 1, [&](size_t begin, size_t end) {
+            BrickSampler sampler(tree_.layout);
+            const std::unique_ptr<DistanceTracer> tracer = solid_.tracer();
+            for (size_t i = begin; i < end; ++i) {
+                begin_cluster(sampler, clusters, i);
+                tracer->enter(sampler.box());
+                do {
+                    tracer->trace(sampler.points(), sampler.found());
+                } while (sampler.advance());
+            }
+        });
+    }
+
+    /// All clusters round by round, so that the device gets the points of all at once.
+    void sample_together(std::span<const size_t> clusters) {
+        while (samplers_.size() + 1 < clusters.size()) {
+            samplers_.emplace_back(tree_.layout);
         }
-        if (first_ == 0) {
-            sampler.sample_root(children.front());
-        } else if (finest) {
-            sampler.sample_finest_children({children, parents}, errors);
-        } else {
-            sampler.sample_children({children, parents});
+        parallel_for(clusters.size() - 1, 1, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) {
+                begin_cluster(samplers_[i], clusters, i);
+            }
+        });
+        std::vector<BrickSampler*> open;
+        for (size_t i = 0; i + 1 < clusters.size(); ++i) {
+            open.push_back(&samplers_[i]);
         }
-        if (!finest) {
-            sampler.find_octants_to_refine(children);
-            return;
+        while (!open.empty()) {
+            advance_together(open);
         }
-        sampler.find_surface_errors(children, errors);
+    }
+
+    /// One round; keeps those that are not done.
+    void advance_together(std::vector<BrickSampler*>& open) {
+        std::vector<size_t> begins;
+        points_.clear();
+        for (const BrickSampler* sampler : open) {
+            begins.push_back(points_.size());
+            points_.insert(points_.end(), sampler->points().begin(), sampler->points().end());
+        }
+        found_.resize(points_.size());
+        on_device_->trace(points_, found_);
+        parallel_for(open.size(), 1, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) {
+                const std::span<SignedDistance> found = open[i]->found();
+                std::copy_n(found_.begin() + static_cast<std::ptrdiff_t>(begins[i]), found.size(),
+                            found.begin());
+                open[i] = open[i]->advance() ? open[i] : nullptr;
+            }
+        });
+        std::erase(open, nullptr);
     }
 
     const ExactDistance& solid_;
     BrickTree& tree_;
     Progress& progress_;
     std::vector<Wanted> wanted_;
-    size_t first_ = 0;           ///< brick of the level at work
-    std::vector<double> errors_; ///< of its bricks; -1: not needed
+    std::unique_ptr<DistanceTracer> on_device_; ///< none: without a device
+    size_t first_ = 0;                          ///< brick of the level at work
+    std::vector<const Brick*> parents_;         ///< of its bricks; none of roots
+    std::vector<double> errors_;                ///< of its bricks; -1: not needed
+    std::vector<BrickSampler> samplers_;        ///< on a device: of the clusters at work
+    std::vector<Vec3> points_;                  ///< theirs
+    std::vector<SignedDistance> found_;
 };
 
 } // namespace
 
-BrickTree grow_bricks(const ExactDistance& solid, const BrickLayout& layout, Progress& progress) {
+BrickTree grow_bricks(const ExactDistance& solid, const BrickLayout& layout, Progress& progress,
+                      SearchDevice* device) {
     BrickTree tree;
     tree.layout = layout;
-    BrickGrower grower(solid, tree, progress);
+    BrickGrower grower(solid, tree, progress, device);
     for (int level = layout.top_level; level >= 0; --level) {
         grower.grow(level);
     }

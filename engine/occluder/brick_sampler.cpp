@@ -93,36 +93,71 @@ glm::vec4 BrickSampler::found_sample(size_t i) const {
     return {glm::vec3(found_[i].normal), static_cast<float>(found_[i].distance / layout_.voxel)};
 }
 
-void BrickSampler::trace() {
-    found_.resize(points_.size());
-    tracer_->trace(points_, found_);
-}
-
-void BrickSampler::sample_root(Brick& brick) {
-    tracer_->enter({point(brick, Vec3(0)), point(brick, Vec3(brick_cells))});
-    points_.clear();
-    for (int i = 0; i < brick_samples; ++i) {
-        points_.push_back(point(brick, Vec3(sample_place(i))));
-    }
-    trace();
-    for (int i = 0; i < brick_samples; ++i) {
-        brick.samples[i] = found_sample(i);
-    }
-}
-
-void BrickSampler::begin(const Cluster& cluster) {
-    low_ = cluster.parents.front()->place >> 1 << 2;
-    level_ = cluster.children.front().level;
+Box BrickSampler::box() const {
     Box box;
-    for (const Brick& child : cluster.children) {
+    for (const Brick& child : cluster_.children) {
         box.include(point(child, Vec3(0)));
         box.include(point(child, Vec3(brick_cells)));
     }
-    tracer_->enter(box);
+    return box;
+}
+
+void BrickSampler::begin(const Cluster& cluster, std::span<double> errors) {
+    cluster_ = cluster;
+    errors_ = errors;
+    const Brick& first = cluster.children.front();
+    low_ = cluster.parents.empty() ? first.place : cluster.parents.front()->place >> 1 << 2;
+    level_ = first.level;
+    share_samples();
+    if (errors.empty() || cluster.parents.empty()) {
+        ask_samples();
+        round_ = Round::samples;
+    } else {
+        ask_centres();
+        round_ = Round::centres;
+    }
+    found_.resize(points_.size());
+}
+
+bool BrickSampler::advance() {
+    switch (round_) {
+    case Round::centres:
+        take_samples();
+        spare_by_centres();
+        ask_samples();
+        round_ = Round::samples;
+        break;
+    case Round::samples:
+        take_samples();
+        for (Brick& child : cluster_.children) {
+            for_samples(child, [&](int at, glm::vec4& sample) { sample = lattice_[at]; });
+        }
+        if (errors_.empty()) {
+            ask_octants();
+        } else {
+            spare_by_samples();
+            ask_surface_errors();
+        }
+        round_ = Round::tests;
+        break;
+    case Round::tests:
+        if (errors_.empty()) {
+            take_octants();
+        } else {
+            take_surface_errors();
+        }
+        return false;
+    }
+    found_.resize(points_.size());
+    return true;
+}
+
+/// What the parents know already.
+void BrickSampler::share_samples() {
     lattice_.resize(lattice_size);
     known_.assign(lattice_size, false);
     const Brick* last = nullptr;
-    for (const Brick* parent : cluster.parents) {
+    for (const Brick* parent : cluster_.parents) {
         if (parent == last) {
             continue;
         }
@@ -136,42 +171,53 @@ void BrickSampler::begin(const Cluster& cluster) {
     }
 }
 
-/// What of these places in the lattice is not known yet.
-void BrickSampler::sample_lattice(std::span<const int> places) {
+/// For what of these places in the lattice is not known yet.
+void BrickSampler::ask(std::span<const int> places) {
     points_.clear();
-    std::vector<int> open;
+    asked_.clear();
     for (const int at : places) {
         if (!known_[at]) {
             known_[at] = true;
-            open.push_back(at);
+            asked_.push_back(at);
             points_.push_back(layout_.point(lattice_cells(at)));
         }
     }
-    trace();
-    for (size_t i = 0; i < open.size(); ++i) {
-        lattice_[open[i]] = found_sample(i);
+}
+
+void BrickSampler::take_samples() {
+    for (size_t i = 0; i < asked_.size(); ++i) {
+        lattice_[asked_[i]] = found_sample(i);
     }
 }
 
-void BrickSampler::sample_children(const Cluster& cluster) {
-    begin(cluster);
-    finish(cluster, {});
-}
-
-void BrickSampler::sample_finest_children(const Cluster& cluster, std::span<double> errors) {
-    begin(cluster);
+void BrickSampler::ask_centres() {
     std::vector<int> centres;
-    for (const Brick& child : cluster.children) {
+    for (const Brick& child : cluster_.children) {
         for_centres(child, [&](int at) { centres.push_back(at); });
     }
-    sample_lattice(centres);
-    for (size_t i = 0; i < cluster.children.size(); ++i) {
-        errors[i] = spares_centres(*cluster.parents[i], cluster.children[i]) ? -1 : 0;
+    ask(centres);
+}
+
+void BrickSampler::ask_samples() {
+    std::vector<int> places;
+    for (size_t i = 0; i < cluster_.children.size(); ++i) {
+        if (!is_spared(i)) {
+            for_samples(cluster_.children[i], [&](int at, const glm::vec4&) { places.push_back(at); });
+        }
     }
-    finish(cluster, errors);
-    for (size_t i = 0; i < cluster.children.size(); ++i) {
-        if (errors[i] == 0 && spares(*cluster.parents[i], cluster.children[i])) {
-            errors[i] = -1;
+    ask(places);
+}
+
+void BrickSampler::spare_by_centres() {
+    for (size_t i = 0; i < cluster_.children.size(); ++i) {
+        errors_[i] = spares_centres(*cluster_.parents[i], cluster_.children[i]) ? -1 : 0;
+    }
+}
+
+void BrickSampler::spare_by_samples() {
+    for (size_t i = 0; i < cluster_.parents.size(); ++i) {
+        if (!is_spared(i) && spares(*cluster_.parents[i], cluster_.children[i])) {
+            errors_[i] = -1;
         }
     }
 }
@@ -187,71 +233,65 @@ bool BrickSampler::spares_centres(const Brick& parent, const Brick& child) const
     return good;
 }
 
-/// Those without a negative error.
-void BrickSampler::finish(const Cluster& cluster, std::span<const double> errors) {
-    std::vector<int> places;
-    for (size_t i = 0; i < cluster.children.size(); ++i) {
-        if (errors.empty() || errors[i] >= 0) {
-            for_samples(cluster.children[i], [&](int at, const glm::vec4&) { places.push_back(at); });
-        }
-    }
-    sample_lattice(places);
-    for (Brick& child : cluster.children) {
-        for_samples(child, [&](int at, glm::vec4& sample) { sample = lattice_[at]; });
-    }
-}
-
-/// Finds the distances at the centres of cells for which wanted(index of the brick, cell) is true.
+/// For the distances at the centres of cells for which wanted(index of the brick, cell) is true.
 template <class Wanted>
-void BrickSampler::test_cells(std::span<const Brick> bricks, const Wanted& wanted) {
+void BrickSampler::ask_cells(const Wanted& wanted) {
     constexpr int cells = brick_cells * brick_cells * brick_cells;
     points_.clear();
     tests_.clear();
-    for (size_t b = 0; b < bricks.size(); ++b) {
+    for (size_t b = 0; b < cluster_.children.size(); ++b) {
         for (int i = 0; i < cells; ++i) {
             const CellIndex cell(i % brick_cells, i / brick_cells % brick_cells,
                                  i / (brick_cells * brick_cells));
             if (wanted(b, cell)) {
                 tests_.push_back({b, cell});
-                points_.push_back(point(bricks[b], Vec3(cell) + Vec3(0.5)));
+                points_.push_back(point(cluster_.children[b], Vec3(cell) + Vec3(0.5)));
             }
         }
     }
-    trace();
 }
 
 /// Of test i, in voxels.
-double BrickSampler::error(std::span<const Brick> bricks, size_t i) const {
+double BrickSampler::error(size_t i) const {
     const auto& [b, cell] = tests_[i];
-    const double interpolated = bricks[b].interpolated(cells_at(bricks[b], Vec3(cell) + Vec3(0.5))).w;
+    const Brick& brick = cluster_.children[b];
+    const double interpolated = brick.interpolated(cells_at(brick, Vec3(cell) + Vec3(0.5))).w;
     return std::abs(interpolated - found_[i].distance / layout_.voxel);
 }
 
-void BrickSampler::find_octants_to_refine(std::span<Brick> bricks) {
-    for (Brick& brick : bricks) {
+void BrickSampler::ask_octants() {
+    for (Brick& brick : cluster_.children) {
         brick.refined = octants_near_surface(brick);
     }
-    test_cells(bricks, [&](size_t b, const CellIndex& cell) {
-        return (bricks[b].refined >> octant_of(cell) & 1) == 0;
+    ask_cells([&](size_t b, const CellIndex& cell) {
+        return (cluster_.children[b].refined >> octant_of(cell) & 1) == 0;
     });
+}
+
+void BrickSampler::take_octants() {
     for (size_t i = 0; i < tests_.size(); ++i) {
-        if (beside_centre * error(bricks, i) > adaptive_tolerance(found_[i].distance / layout_.voxel)) {
-            bricks[tests_[i].brick].refined |= static_cast<uint8_t>(1 << octant_of(tests_[i].cell));
+        if (beside_centre * error(i) > adaptive_tolerance(found_[i].distance / layout_.voxel)) {
+            cluster_.children[tests_[i].brick].refined |=
+                static_cast<uint8_t>(1 << octant_of(tests_[i].cell));
         }
     }
 }
 
-void BrickSampler::find_surface_errors(std::span<const Brick> bricks, std::span<double> errors) {
-    test_cells(bricks, [&](size_t b, const CellIndex& cell) {
-        const CellIndex& p = bricks[b].place;
+void BrickSampler::ask_surface_errors() {
+    ask_cells([&](size_t b, const CellIndex& cell) {
+        const Brick& brick = cluster_.children[b];
+        const CellIndex& p = brick.place;
         const int phase = (p.x + 2 * p.y + 4 * p.z) & 7; // all cells take their turn from brick to brick
         const int turn = (cell.x & 1) + 2 * (cell.y & 1) + 4 * (cell.z & 1);
-        return turn == phase && errors[b] >= 0 &&
-               std::abs(bricks[b].samples[sample_index(cell)].w) < surface_reach;
+        return turn == phase && !is_spared(b) &&
+               std::abs(brick.samples[sample_index(cell)].w) < surface_reach;
     });
+}
+
+void BrickSampler::take_surface_errors() {
     for (size_t i = 0; i < tests_.size(); ++i) {
-        double& worst = errors[tests_[i].brick];
-        worst = std::max(worst, error(bricks, i));
+        double& worst = errors_[tests_[i].brick];
+        worst = std::max(worst, error(i));
     }
 }
 

@@ -3,7 +3,6 @@
 
 #include "engine/occluder/brick_tree.h"
 
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -19,46 +18,56 @@ struct Cluster {
 /// Whether two bricks' children belong to one cluster.
 bool share_cluster(const Brick& parent, const Brick& other);
 
-/// Asks for the distances of many bricks at once, which is what makes them cheap. One object a thread.
+/// Samples a cluster after the other, in rounds: what it wants to know is asked for at once, since many
+/// points together are what makes distances cheap.
+///
+///     for (bool more = sampler.begin(...); more; more = sampler.advance()) {
+///         tracer.trace(sampler.points(), sampler.found());
+///     }
 class BrickSampler {
   public:
-    BrickSampler(const ExactDistance& solid, const BrickLayout& layout)
-        : tracer_(solid.tracer()), layout_(layout) {}
+    explicit BrickSampler(const BrickLayout& layout) : layout_(layout) {}
 
-    /// A brick without a parent.
-    void sample_root(Brick& brick);
+    /// A cluster, which outlives its rounds; without parents: one root. On levels above the finest,
+    /// where `errors` is empty, `refined` of the children is set in the end: the octants that the surface is
+    /// near to, or that they interpolate too badly. On the finest level `errors` is what they may be off
+    /// most, at some of their cells' centres near the surface, in voxels; -1 for those that their parents
+    /// spare: they are held against the samples in the middle of the parents' cells first, and most that are
+    /// spared cost no more than these.
+    void begin(const Cluster& cluster, std::span<double> errors);
+    /// After points() were found. @return false: the cluster is done.
+    bool advance();
 
-    void sample_children(const Cluster& cluster);
-
-    /// The same on the finest level: leaves out, with -1 in `errors`, those that their parents spare. They
-    /// are held against the samples in the middle of the parents' cells first; most that are spared cost no
-    /// more than these.
-    void sample_finest_children(const Cluster& cluster, std::span<double> errors);
-
-    /// Sets `refined` of the bricks sampled last: the octants that the surface is near to, or that they
-    /// interpolate too badly.
-    void find_octants_to_refine(std::span<Brick> bricks);
-
-    /// Largest interpolation error of each of the bricks sampled last, at some of its cells' centres near the
-    /// surface, in voxels. Negative entries of `errors` stay, and cost nothing.
-    void find_surface_errors(std::span<const Brick> bricks, std::span<double> errors);
+    /// Around all points that the cluster can ask for.
+    Box box() const;
+    std::span<const Vec3> points() const { return points_; }
+    std::span<SignedDistance> found() { return found_; }
 
   private:
     struct Test {
         size_t brick;
         CellIndex cell;
     };
+    enum class Round { centres, samples, tests };
 
     /// Whether the coarser brick interpolates well enough at all of the other's samples.
     static bool spares(const Brick& coarser, const Brick& brick);
     bool spares_centres(const Brick& parent, const Brick& child) const;
-    void begin(const Cluster& cluster);
-    void sample_lattice(std::span<const int> places);
-    void finish(const Cluster& cluster, std::span<const double> errors);
+    bool is_spared(size_t child) const { return !errors_.empty() && errors_[child] < 0; }
+    void share_samples();
+    void ask_centres();
+    void ask_samples();
+    void ask(std::span<const int> places);
+    void take_samples();
+    void spare_by_centres();
+    void spare_by_samples();
+    void ask_octants();
+    void take_octants();
+    void ask_surface_errors();
+    void take_surface_errors();
     Vec3 point(const Brick& brick, const Vec3& within) const;
     Vec3 lattice_cells(int at) const;
     glm::vec4 found_sample(size_t i) const;
-    void trace();
     /// visit(index in the lattice, sample) for each sample of a child.
     template <class AnyBrick, class Visit>
     void for_samples(AnyBrick& child, const Visit& visit) const;
@@ -66,16 +75,19 @@ class BrickSampler {
     template <class Visit>
     void for_centres(const Brick& child, const Visit& visit) const;
     template <class Wanted>
-    void test_cells(std::span<const Brick> bricks, const Wanted& wanted);
-    double error(std::span<const Brick> bricks, size_t i) const;
+    void ask_cells(const Wanted& wanted);
+    double error(size_t i) const;
 
-    std::unique_ptr<DistanceTracer> tracer_;
     const BrickLayout& layout_;
+    Cluster cluster_;
+    std::span<double> errors_;
+    Round round_ = Round::centres;
     CellIndex low_{0}; ///< of the lattice, in bricks of the children's level
     int level_ = 0;    ///< of the children
     std::vector<Test> tests_;
     std::vector<glm::vec4> lattice_; ///< samples of a cluster
-    std::vector<bool> known_;        ///< which of them
+    std::vector<bool> known_;        ///< which of them, asked for included
+    std::vector<int> asked_;         ///< places in the lattice of points_
     std::vector<Vec3> points_;
     std::vector<SignedDistance> found_;
 };

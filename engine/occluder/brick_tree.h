@@ -56,13 +56,14 @@ struct BrickLayout {
 };
 
 /// Fine enough bricks of the whole box, coarse levels first; `error`: see AdaptiveField, in voxels, not
-/// limited. @throws Cancelled
+/// limited. With a device, if there is one (see ExactDistance::tracer_with()). @throws Cancelled, DeviceError
 struct BrickTree {
     BrickLayout layout;
     std::vector<Brick> bricks;
     double error = 0;
 };
-BrickTree grow_bricks(const ExactDistance& solid, const BrickLayout& layout, Progress& progress);
+BrickTree grow_bricks(const ExactDistance& solid, const BrickLayout& layout, Progress& progress,
+                      SearchDevice* device);
 
 /// Index into tree.bricks of the brick that covers each finest brick's place, x fastest.
 std::vector<uint32_t> brick_table(const BrickTree& tree);

@@ -29,30 +29,34 @@ DistanceVolume layout(const Box& box, uint32_t resolution) {
     return volume;
 }
 
-/// Voxels or cells of a block: what is asked for at once.
+/// Voxels or cells of a block along a side: what is asked for at once.
 constexpr size_t block_size = 8;
 
-template <class Visit>
-void each_place(size_t block_x, size_t block_y, size_t block_z, const std::array<size_t, 3>& size,
-                const Visit& visit) {
-    for (size_t z = block_z; z < std::min(block_z + block_size, size[2]); ++z) {
-        for (size_t y = block_y; y < std::min(block_y + block_size, size[1]); ++y) {
-            for (size_t x = block_x; x < std::min(block_x + block_size, size[0]); ++x) {
-                visit(x, y, z);
+/// Voxels or cells from `low` on, up to `high`.
+struct Block {
+    std::array<size_t, 3> low;
+    std::array<size_t, 3> high;
+
+    template <class Visit>
+    void each_place(const Visit& visit) const {
+        for (size_t z = low[2]; z < high[2]; ++z) {
+            for (size_t y = low[1]; y < high[1]; ++y) {
+                for (size_t x = low[0]; x < high[0]; ++x) {
+                    visit(x, y, z);
+                }
             }
         }
     }
-}
+};
 
-void fill_block(DistanceVolume& volume, const ExactDistance& solid, size_t x0, size_t y0, size_t z0) {
-    const std::array<size_t, 3> size{volume.size[0], volume.size[1], volume.size[2]};
+void fill_block(DistanceVolume& volume, DistanceTracer& tracer, const Block& block) {
     std::vector<Vec3> points;
-    each_place(x0, y0, z0, size,
-               [&](size_t x, size_t y, size_t z) { points.push_back(voxel_centre(volume, Vec3(x, y, z))); });
+    block.each_place(
+        [&](size_t x, size_t y, size_t z) { points.push_back(voxel_centre(volume, Vec3(x, y, z))); });
     std::vector<SignedDistance> found(points.size());
-    solid.tracer()->trace(points, found);
+    tracer.trace(points, found);
     auto next = found.begin();
-    each_place(x0, y0, z0, size, [&](size_t x, size_t y, size_t z) {
+    block.each_place([&](size_t x, size_t y, size_t z) {
         float* texel = &volume.texels[volume.texel_index(x, y, z)];
         for (int i = 0; i < 3; ++i) {
             *texel++ = static_cast<float>(next->normal[i]);
@@ -62,20 +66,19 @@ void fill_block(DistanceVolume& volume, const ExactDistance& solid, size_t x0, s
 }
 
 /// Largest interpolation error at the cell centres of a block that the surface is near to.
-double block_error(const DistanceVolume& volume, const ExactDistance& solid, size_t x0, size_t y0,
-                   size_t z0) {
-    const std::array<size_t, 3> cells{volume.size[0] - 1, volume.size[1] - 1, volume.size[2] - 1};
+double block_error(const DistanceVolume& volume, DistanceTracer& tracer, const Block& block) {
+    const Vec3 cells(volume.size[0] - 1, volume.size[1] - 1, volume.size[2] - 1);
     std::vector<Vec3> points;
     std::vector<double> interpolated;
-    each_place(x0, y0, z0, cells, [&](size_t x, size_t y, size_t z) {
+    block.each_place([&](size_t x, size_t y, size_t z) {
         if (std::abs(volume.texels[volume.texel_index(x, y, z) + 3]) <= 2 * volume.voxel) {
             const Vec3 cell = Vec3(x, y, z) + Vec3(0.5);
             points.push_back(voxel_centre(volume, cell));
-            interpolated.push_back(volume.texel(cell / Vec3(cells[0], cells[1], cells[2])).w);
+            interpolated.push_back(volume.texel(cell / cells).w);
         }
     });
     std::vector<SignedDistance> found(points.size());
-    solid.tracer()->trace(points, found);
+    tracer.trace(points, found);
     double worst = 0;
     for (size_t i = 0; i < points.size(); ++i) {
         worst = std::max(worst, std::abs(interpolated[i] - found[i].distance));
@@ -83,14 +86,32 @@ double block_error(const DistanceVolume& volume, const ExactDistance& solid, siz
     return worst;
 }
 
-/// Calls work(x, y) for the low corners of a layer's blocks, on all cores.
+/// Cuts up a layer of blocks, z and up, of so many voxels or cells.
+std::vector<Block> blocks_of_layer(const std::array<size_t, 3>& size, size_t z) {
+    const size_t top = std::min(z + block_size, size[2]);
+    std::vector<Block> blocks;
+    for (size_t y = 0; y < size[1]; y += block_size) {
+        for (size_t x = 0; x < size[0]; x += block_size) {
+            blocks.push_back(
+                {{x, y, z}, {std::min(x + block_size, size[0]), std::min(y + block_size, size[1]), top}});
+        }
+    }
+    return blocks;
+}
+
+/// Calls work(tracer, block) for what makes up a layer: blocks on all cores, or all of it on the device.
 template <class Work>
-void for_blocks(const DistanceVolume& volume, const Work& work) {
-    const size_t columns = (volume.size[0] + block_size - 1) / block_size;
-    const size_t rows = (volume.size[1] + block_size - 1) / block_size;
-    parallel_for(columns * rows, 1, [&](size_t begin, size_t end) {
+void for_layer(const ExactDistance& solid, DistanceTracer* on_device, const std::array<size_t, 3>& size,
+               size_t z, const Work& work) {
+    if (on_device != nullptr) {
+        work(*on_device, Block{{0, 0, z}, {size[0], size[1], std::min(z + block_size, size[2])}});
+        return;
+    }
+    const std::vector<Block> blocks = blocks_of_layer(size, z);
+    parallel_for(blocks.size(), 1, [&](size_t begin, size_t end) {
+        const std::unique_ptr<DistanceTracer> tracer = solid.tracer();
         for (size_t i = begin; i < end; ++i) {
-            work(i % columns * block_size, i / columns * block_size);
+            work(*tracer, blocks[i]);
         }
     });
 }
@@ -121,17 +142,22 @@ Box bakeable_box(const ExactDistance& solid) {
     return box;
 }
 
-DistanceVolume bake(const ExactDistance& solid, uint32_t resolution, Progress& progress) {
+DistanceVolume bake(const ExactDistance& solid, uint32_t resolution, Progress& progress,
+                    SearchDevice* device) {
     DistanceVolume volume = layout(bakeable_box(solid), resolution);
     volume.texels.resize(4 * size_t{volume.size[0]} * volume.size[1] * volume.size[2]);
-    for (size_t z = 0; z < volume.size[2]; z += block_size) {
+    const auto on_device = device != nullptr ? solid.tracer_with(*device) : nullptr;
+    const std::array<size_t, 3> voxels{volume.size[0], volume.size[1], volume.size[2]};
+    for (size_t z = 0; z < voxels[2]; z += block_size) {
         progress.report("bake", static_cast<double>(z) / volume.size[2]);
-        for_blocks(volume, [&](size_t x, size_t y) { fill_block(volume, solid, x, y, z); });
+        for_layer(solid, on_device.get(), voxels, z,
+                  [&](DistanceTracer& tracer, const Block& block) { fill_block(volume, tracer, block); });
     }
+    const std::array<size_t, 3> cells{voxels[0] - 1, voxels[1] - 1, voxels[2] - 1};
     std::mutex mutex;
-    for (size_t z = 0; z < volume.size[2]; z += block_size) {
-        for_blocks(volume, [&](size_t x, size_t y) {
-            const double error = block_error(volume, solid, x, y, z);
+    for (size_t z = 0; z < cells[2]; z += block_size) {
+        for_layer(solid, on_device.get(), cells, z, [&](DistanceTracer& tracer, const Block& block) {
+            const double error = block_error(volume, tracer, block);
             const std::lock_guard lock(mutex);
             volume.error = std::max(volume.error, error);
         });

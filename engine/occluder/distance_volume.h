@@ -39,7 +39,9 @@ VoxelGrid voxel_grid(const Box& box, uint32_t resolution);
 Box bakeable_box(const ExactDistance& solid);
 
 /// Samples `solid` on a grid with `resolution` voxels along the longest side of its bounds plus padding.
-/// @throws InputError if the solid is unbounded or has no extent; Cancelled.
-DistanceVolume bake(const ExactDistance& solid, uint32_t resolution, Progress& progress);
+/// With a device, if there is one: the field is the same but where triangles are equally near.
+/// @throws InputError if the solid is unbounded or has no extent; Cancelled; DeviceError.
+DistanceVolume bake(const ExactDistance& solid, uint32_t resolution, Progress& progress,
+                    SearchDevice* device = nullptr);
 
 } // namespace anvil

@@ -12,6 +12,8 @@
 
 namespace anvil {
 
+class SearchDevice; // engine/mesh/triangle_search.h
+
 struct SignedDistance {
     double distance; ///< < 0 inside
     Vec3 normal;     ///< outward unit normal: from the closest surface point, or towards it when inside
@@ -35,6 +37,9 @@ class ExactDistance {
     virtual SignedDistance at(const Vec3& p) const = 0;
     /// Which the solid outlives.
     virtual std::unique_ptr<DistanceTracer> tracer() const;
+    /// The same on all cores, with the device's help, for many thousands of points at once; nullptr: nothing
+    /// that a device would help with. Both outlive it. @throws DeviceError, as do its calls
+    virtual std::unique_ptr<DistanceTracer> tracer_with(SearchDevice& /*device*/) const { return nullptr; }
     /// Box of the solid; infinite for unbounded shapes.
     virtual Box bounds() const = 0;
 };

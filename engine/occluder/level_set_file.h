@@ -23,8 +23,9 @@ Mesh read_level_set(const std::filesystem::path& file, const std::string& grid, 
 /// Writes the solid as level set "surface" (class level set, float, world units): true distances within 3
 /// voxels of the surface, +-3 voxels elsewhere. Voxel centres lie at whole multiples of `voxel`, > 0.
 /// @param solid exact and bounded, since blocks far from its surface are left out by its distance
-/// @throws InputError if the solid is unbounded or has no extent or no voxel; WriteError; Cancelled.
+/// @throws InputError if the solid is unbounded or has no extent or no voxel; WriteError; Cancelled;
+/// DeviceError.
 void write_level_set(const std::filesystem::path& file, const ExactDistance& solid, double voxel,
-                     Progress& progress);
+                     Progress& progress, SearchDevice* device = nullptr);
 
 } // namespace anvil

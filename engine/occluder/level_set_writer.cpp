@@ -79,12 +79,19 @@ std::vector<openvdb::Coord> band_leaves(const ExactDistance& solid, double voxel
     }
 }
 
-std::unique_ptr<Leaf> filled_leaf(const openvdb::Coord& origin, const ExactDistance& solid, double voxel) {
+void append_points(std::vector<Vec3>& points, const openvdb::Coord& origin, double voxel) {
+    for (openvdb::Index i = 0; i < Leaf::SIZE; ++i) {
+        const openvdb::Coord at = Leaf::offsetToLocalCoord(i) + origin;
+        points.push_back(voxel * Vec3(at.x(), at.y(), at.z()));
+    }
+}
+
+std::unique_ptr<Leaf> filled_leaf(const openvdb::Coord& origin, std::span<const SignedDistance> found,
+                                  double voxel) {
     const auto background = static_cast<float>(half_width * voxel);
     auto leaf = std::make_unique<Leaf>(origin, background, false);
     for (openvdb::Index i = 0; i < Leaf::SIZE; ++i) {
-        const openvdb::Coord at = leaf->offsetToGlobalCoord(i);
-        const double distance = solid.at(voxel * Vec3(at.x(), at.y(), at.z())).distance;
+        const double distance = found[i].distance;
         if (std::abs(distance) < half_width * voxel) {
             leaf->setValueOn(i, static_cast<float>(distance));
         } else {
@@ -94,21 +101,42 @@ std::unique_ptr<Leaf> filled_leaf(const openvdb::Coord& origin, const ExactDista
     return leaf;
 }
 
+/// The leaves at these places.
+std::vector<std::unique_ptr<Leaf>> filled_leaves(std::span<const openvdb::Coord> origins,
+                                                 DistanceTracer& tracer, double voxel) {
+    std::vector<Vec3> points;
+    for (const openvdb::Coord& origin : origins) {
+        append_points(points, origin, voxel);
+    }
+    std::vector<SignedDistance> found(points.size());
+    tracer.trace(points, found);
+    std::vector<std::unique_ptr<Leaf>> leaves;
+    for (size_t i = 0; i < origins.size(); ++i) {
+        leaves.push_back(filled_leaf(origins[i], std::span(found).subspan(i * Leaf::SIZE), voxel));
+    }
+    return leaves;
+}
+
 void fill(openvdb::FloatTree& tree, const std::vector<openvdb::Coord>& origins, const ExactDistance& solid,
-          double voxel, Progress& progress) {
-    constexpr size_t batch = 1024;
-    std::vector<std::unique_ptr<Leaf>> leaves(batch);
+          double voxel, Progress& progress, SearchDevice* device) {
+    constexpr size_t batch = 512;
+    const auto on_device = device != nullptr ? solid.tracer_with(*device) : nullptr;
+    std::vector<std::unique_ptr<Leaf>> leaves;
     for (size_t first = 0; first < origins.size(); first += batch) {
         progress.report("bake", static_cast<double>(first) / static_cast<double>(origins.size()));
-        const size_t count = std::min(batch, origins.size() - first);
-        parallel_for(count, 1, [&](size_t begin, size_t end) {
-            for (size_t i = begin; i < end; ++i) {
-                leaves[i] = filled_leaf(origins[first + i], solid, voxel);
-            }
-        });
-        for (size_t i = 0; i < count; ++i) {
-            if (!leaves[i]->isInactive()) {
-                tree.addLeaf(leaves[i].release()); // the tree deletes it
+        const auto some = std::span(origins).subspan(first, std::min(batch, origins.size() - first));
+        if (on_device) {
+            leaves = filled_leaves(some, *on_device, voxel);
+        } else {
+            leaves.resize(some.size());
+            parallel_for(some.size(), 1, [&](size_t begin, size_t end) {
+                auto part = filled_leaves(some.subspan(begin, end - begin), *solid.tracer(), voxel);
+                std::move(part.begin(), part.end(), leaves.begin() + static_cast<std::ptrdiff_t>(begin));
+            });
+        }
+        for (std::unique_ptr<Leaf>& leaf : leaves) {
+            if (!leaf->isInactive()) {
+                tree.addLeaf(leaf.release()); // the tree deletes it
             }
         }
     }
@@ -138,7 +166,7 @@ std::string as_file(const openvdb::FloatGrid::Ptr& grid) {
 } // namespace
 
 void write_level_set(const std::filesystem::path& file, const ExactDistance& solid, double voxel,
-                     Progress& progress) {
+                     Progress& progress, SearchDevice* device) {
     const Box box = solid.bounds();
     if (box.empty() || !is_finite(box.low) || !is_finite(box.high) || !(box.diagonal() > 0)) {
         throw InputError("only a bounded solid with an extent can be baked into a level set");
@@ -150,7 +178,7 @@ void write_level_set(const std::filesystem::path& file, const ExactDistance& sol
     grid->setGridClass(openvdb::GRID_LEVEL_SET);
     grid->setCreator("Anvil");
     grid->setTransform(openvdb::math::Transform::createLinearTransform(voxel));
-    fill(grid->tree(), band_leaves(solid, voxel), solid, voxel, progress);
+    fill(grid->tree(), band_leaves(solid, voxel), solid, voxel, progress, device);
     if (grid->activeVoxelCount() == 0) {
         throw InputError("the solid is thinner than its voxels show; raise the field's \"resolution\"");
     }

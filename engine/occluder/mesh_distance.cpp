@@ -1,7 +1,9 @@
 #include "engine/occluder/mesh_distance.h"
 
 #include "engine/core/error.h"
+#include "engine/core/parallel_for.h"
 #include "engine/mesh/closest_points.h"
+#include "engine/mesh/triangle_search.h"
 #include "engine/occluder/solid_warnings.h"
 #include "engine/occluder/surface_sides.h"
 #include "engine/occluder/winding_number.h"
@@ -28,6 +30,8 @@ class MeshDistance final : public ExactDistance {
 
     std::unique_ptr<DistanceTracer> tracer() const override { return std::make_unique<Tracer>(*this); }
 
+    std::unique_ptr<DistanceTracer> tracer_with(SearchDevice& device) const override;
+
     Box bounds() const override { return bounds_; }
 
     size_t crossing_triangles() const { return sides_.crossing_triangles(); }
@@ -52,6 +56,8 @@ class MeshDistance final : public ExactDistance {
         ClosestPointTracer nearest_;
         std::vector<ClosestPoint> closest_;
     };
+
+    class DeviceTracer;
 
     SignedDistance signed_distance(const Vec3& p, const ClosestPoint& closest) const {
         const Vec3 arm = p - closest.position;
@@ -95,6 +101,64 @@ class MeshDistance final : public ExactDistance {
     SurfaceSides sides_;
     Box bounds_;
 };
+
+/// The device finds the few triangles that may be nearest; those are decided between here, in double, so that
+/// the result is the same as without it. Once it has failed, all is done here.
+class MeshDistance::DeviceTracer final : public DistanceTracer {
+  public:
+    DeviceTracer(const MeshDistance& solid, const NarrowTree& tree, std::unique_ptr<TriangleSearch> search)
+        : solid_(solid), place_(tree), search_(std::move(search)) {}
+
+    void trace(std::span<const Vec3> points, std::span<SignedDistance> found) override {
+        if (!search_ || !search(points)) {
+            search_.reset();
+        }
+        parallel_for(points.size(), at_once, [&](size_t begin, size_t end) {
+            const auto part = points.subspan(begin, end - begin);
+            if (search_) {
+                decide(part, std::span(near_).subspan(begin), found.subspan(begin));
+            } else {
+                Tracer(solid_).trace(part, found.subspan(begin, part.size()));
+            }
+        });
+    }
+
+  private:
+    static constexpr size_t at_once = 512;
+
+    bool search(std::span<const Vec3> points) {
+        local_.resize(points.size());
+        near_.resize(points.size());
+        parallel_for(points.size(), at_once, [&](size_t begin, size_t end) {
+            std::transform(&points[begin], &points[begin] + (end - begin), &local_[begin],
+                           [this](const Vec3& p) { return place_.local(p); });
+        });
+        return search_->find(local_, near_);
+    }
+
+    void decide(std::span<const Vec3> points, std::span<const NearSlots> near,
+                std::span<SignedDistance> found) const {
+        for (size_t i = 0; i < points.size(); ++i) {
+            const auto end = std::find(near[i].begin(), near[i].end(), kernel::f32::NO_TRIANGLE);
+            const std::span<const uint32_t> slots(near[i].begin(), end);
+            const SearchTree& tree = solid_.tree_;
+            found[i] = solid_.signed_distance(points[i], slots.empty() ? tree.closest(points[i])
+                                                                       : tree.closest_of(points[i], slots));
+        }
+    }
+
+    const MeshDistance& solid_;
+    NarrowPlace place_;
+    std::unique_ptr<TriangleSearch> search_;
+    std::vector<glm::vec3> local_;
+    std::vector<NearSlots> near_;
+};
+
+std::unique_ptr<DistanceTracer> MeshDistance::tracer_with(SearchDevice& device) const {
+    const NarrowTree tree = tree_.narrowed();
+    auto search = device.put(tree);
+    return search ? std::make_unique<DeviceTracer>(*this, tree, std::move(search)) : nullptr;
+}
 
 } // namespace
 

@@ -105,7 +105,7 @@ SignedDistance in_world(const k::Occluder& occluder, const ExactDistance& exact,
 } // namespace
 
 OccluderModel build_model(const OccluderShape& shape, const Field& field, Progress& progress,
-                          const SolidSource& source, const FileCache* cache) {
+                          const SolidSource& source, const FileCache* cache, SearchDevice* device) {
     OccluderModel model;
     if (has_formula(shape)) {
         model.nodes = shape_nodes(shape);
@@ -121,19 +121,19 @@ OccluderModel build_model(const OccluderShape& shape, const Field& field, Progre
     if (field.kind == FieldKind::exact) {
         return model;
     }
-    return sampled_model(model.exact, field, progress, bake_cache(cache, shape, field, source));
+    return sampled_model(model.exact, field, progress, bake_cache(cache, shape, field, source), device);
 }
 
 OccluderModel sampled_model(std::shared_ptr<const ExactDistance> solid, const Field& field,
-                            Progress& progress, const BakeCache& cache) {
+                            Progress& progress, const BakeCache& cache, SearchDevice* device) {
     OccluderModel model;
     if (field.kind == FieldKind::dense) {
         model.volumes.push_back(std::make_shared<DistanceVolume>(
-            cached<DistanceVolume>(cache, [&] { return bake(*solid, field.resolution, progress); })));
+            cached<DistanceVolume>(cache, [&] { return bake(*solid, field.resolution, progress, device); })));
         model.nodes = {sampled_node(k::SHAPE_VOLUME, *model.volumes.front())};
     } else {
-        model.field = std::make_shared<AdaptiveField>(
-            cached<AdaptiveField>(cache, [&] { return bake_adaptive(*solid, field.resolution, progress); }));
+        model.field = std::make_shared<AdaptiveField>(cached<AdaptiveField>(
+            cache, [&] { return bake_adaptive(*solid, field.resolution, progress, device); }));
         model.nodes = {sampled_node(k::SHAPE_BRICKS, *model.field)};
     }
     model.bounds = solid->bounds();

@@ -54,16 +54,18 @@ struct OccluderModel {
 };
 
 /// What is baked comes from the cache where it has it. With an exact field, a shape without a formula has no
-/// nodes: good for exact distances alone.
+/// nodes: good for exact distances alone. With a device, if there is one, fields of meshes are baked there.
 /// @throws InputError if a baked shape is unbounded, a shape encloses nothing (told by its bounds, when baked
-/// by its surface too), the Boolean tree is too deep for the kernels, or a mesh file cannot be read.
+/// by its surface too), the Boolean tree is too deep for the kernels, or a mesh file cannot be read;
+/// DeviceError.
 OccluderModel build_model(const OccluderShape& shape, const Field& field, Progress& progress,
-                          const SolidSource& source = {}, const FileCache* cache = nullptr);
+                          const SolidSource& source = {}, const FileCache* cache = nullptr,
+                          SearchDevice* device = nullptr);
 
 /// A model baked from any bounded solid with a true distance; `field` is dense or adaptive.
-/// @throws InputError if the solid is unbounded or has no extent; Cancelled.
+/// @throws InputError if the solid is unbounded or has no extent; Cancelled; DeviceError.
 OccluderModel sampled_model(std::shared_ptr<const ExactDistance> solid, const Field& field,
-                            Progress& progress, const BakeCache& cache = {});
+                            Progress& progress, const BakeCache& cache = {}, SearchDevice* device = nullptr);
 
 /// What the occluders' defaults refer to.
 struct OccluderScale {

@@ -17,11 +17,15 @@ class PlacedDistance final : public ExactDistance {
     PlacedDistance(std::shared_ptr<const ExactDistance> solid, const Placement& place)
         : solid_(std::move(solid)), place_(place) {}
 
-    SignedDistance at(const Vec3& p) const override {
-        const Vec3 arm = (p - place_.origin) / place_.scale;
-        const auto& [x, y, z] = place_.axes;
-        const SignedDistance s = solid_->at(Vec3(glm::dot(x, arm), glm::dot(y, arm), glm::dot(z, arm)));
-        return {s.distance * place_.scale, x * s.normal.x + y * s.normal.y + z * s.normal.z};
+    SignedDistance at(const Vec3& p) const override { return placed(solid_->at(local(p))); }
+
+    std::unique_ptr<DistanceTracer> tracer() const override {
+        return std::make_unique<Tracer>(*this, solid_->tracer());
+    }
+
+    std::unique_ptr<DistanceTracer> tracer_with(SearchDevice& device) const override {
+        auto tracer = solid_->tracer_with(device);
+        return tracer ? std::make_unique<Tracer>(*this, std::move(tracer)) : nullptr;
     }
 
     Box bounds() const override {
@@ -40,6 +44,36 @@ class PlacedDistance final : public ExactDistance {
     }
 
   private:
+    class Tracer final : public DistanceTracer {
+      public:
+        Tracer(const PlacedDistance& solid, std::unique_ptr<DistanceTracer> local)
+            : solid_(solid), local_(std::move(local)) {}
+
+        void trace(std::span<const Vec3> points, std::span<SignedDistance> found) override {
+            points_.resize(points.size());
+            std::transform(points.begin(), points.end(), points_.begin(),
+                           [this](const Vec3& p) { return solid_.local(p); });
+            local_->trace(points_, found);
+            std::transform(found.begin(), found.end(), found.begin(),
+                           [this](const SignedDistance& s) { return solid_.placed(s); });
+        }
+
+      private:
+        const PlacedDistance& solid_;
+        std::unique_ptr<DistanceTracer> local_;
+        std::vector<Vec3> points_;
+    };
+
+    Vec3 local(const Vec3& p) const {
+        const Vec3 arm = (p - place_.origin) / place_.scale;
+        const auto& [x, y, z] = place_.axes;
+        return {glm::dot(x, arm), glm::dot(y, arm), glm::dot(z, arm)};
+    }
+    SignedDistance placed(const SignedDistance& s) const {
+        const auto& [x, y, z] = place_.axes;
+        return {s.distance * place_.scale, x * s.normal.x + y * s.normal.y + z * s.normal.z};
+    }
+
     std::shared_ptr<const ExactDistance> solid_;
     Placement place_;
 };

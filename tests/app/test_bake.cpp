@@ -108,6 +108,58 @@ TEST_CASE("A level set from a file stops a surface as the sphere that it holds d
     CHECK(inside == 0);
 }
 
+TEST_CASE("A device bakes what the CPU bakes, to the bit; one that is not there is status 3", "[app][bake]") {
+    const ForgeFolder forge;
+    REQUIRE(run_anvil({"sample", "bust", "-o", forge.path("tool.ply"), "--vertices", "600"}).status == 0);
+    forge.write("push.json", recipe_text(R"([{"kind": "translate", "radius": 1,
+        "handles": [{"at": {"nearest": [0, 0, 1]}, "by": [0, 0, -0.9]}]}])",
+                                         R"([{"name": "tool", "shape": {"mesh": "tool.ply"},
+            "transform": {"translate": [0, -0.5, 0]},
+            "field": {"kind": "adaptive", "resolution": 24}}])"));
+    RunLimits limits;
+    limits.environment = {"ANVIL_CACHE=off"};
+    const auto run = [&](const std::vector<std::string>& arguments) {
+        std::vector<std::string> all{"forge", forge.path("push.json"), "-o", forge.path("out.ply")};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        return run_anvil(all, limits);
+    };
+    std::string on_cpu;
+    for (const std::string where : {"cpu", "device"}) {
+        const ProgramRun done = run({"--device", "0", "--bake", where});
+        INFO(done.err);
+        REQUIRE(done.status == 0);
+        on_cpu = on_cpu.empty() ? content_of(forge.path("out.ply")) : on_cpu;
+        const bool same = content_of(forge.path("out.ply")) == on_cpu;
+        CHECK(same);
+    }
+    const ProgramRun nowhere = run({"--device", "cpu", "--bake", "device"});
+    CHECK(nowhere.status == 2);
+    CHECK_THAT(nowhere.err, Catch::Contains("--device"));
+    CHECK(run_anvil({"bake", forge.path("push.json"), "-o", forge.path("a.vdb"), "--device", "no such"})
+              .status == 3);
+}
+
+TEST_CASE("bake writes the same level set whatever the device", "[app][bake]") {
+    const Bake bake;
+    REQUIRE(run_anvil({"sample", "bust", "-o", bake.folder / "tool.ply", "--vertices", "600"}).status == 0);
+    bake.write_recipe("recipe.json", R"([{"name": "tool", "shape": {"mesh": "tool.ply"},
+        "transform": {"translate": [3, 0, 0], "rotate": {"axis": [1, 1, 0], "degrees": 30}, "scale": 2},
+        "field": {"kind": "dense", "resolution": 24}}])");
+    bake.write_recipe("again.json", R"([{"name": "again", "shape": {"vdb": "out.vdb"}}])");
+    std::ofstream(bake.folder / "points.txt") << "3 0 0\n4 1 0.25\n2 -1 0.5\n";
+    std::string on_cpu;
+    for (const std::string device : {"cpu", "0"}) {
+        const ProgramRun baked = bake.run({"-o", bake.vdb, "--device", device});
+        INFO(baked.err);
+        REQUIRE(baked.status == 0);
+        const ProgramRun probed =
+            run_anvil({"probe", bake.folder / "again.json", bake.folder / "points.txt"});
+        REQUIRE(probed.status == 0);
+        on_cpu = on_cpu.empty() ? probed.out : on_cpu;
+        CHECK(probed.out == on_cpu);
+    }
+}
+
 TEST_CASE("A field that forge has baked is kept in the cache folder, and changes nothing", "[app][bake]") {
     const ForgeFolder forge;
     forge.write("push.json",

@@ -1,4 +1,5 @@
 #include "engine/core/error.h"
+#include "engine/mesh/lasting_search.h"
 #include "engine/mesh/sample_shapes.h"
 #include "engine/occluder/adaptive_field.h"
 #include "engine/occluder/brick_tree.h"
@@ -6,6 +7,7 @@
 #include "engine/occluder/occluder_kernel.h"
 #include "engine/occluder/shape_nodes.h"
 #include "tests/support/contact_scene.h"
+#include "tests/support/failing_search.h"
 
 #include <atomic>
 #include <catch2/catch.hpp>
@@ -295,4 +297,22 @@ TEST_CASE("an adaptive bake of what is unbounded is refused, and every bake can 
                     InputError);
     progress.cancel();
     CHECK_THROWS_AS(build_model(ball, {FieldKind::adaptive, 64}, progress), Cancelled);
+}
+
+TEST_CASE("a field baked with a device's help is the same, also where the device fails in between") {
+    Progress progress;
+    const auto solid = mesh_distance(make_sample("bust", 800));
+    const AdaptiveField field = bake_adaptive(*solid, 40, progress);
+    const DistanceVolume volume = bake(*solid, 24, progress);
+    for (const int calls : {1000, 0, 1, 2, 7}) { // that the device lasts
+        FailingSearchDevice device(calls);
+        Log log;
+        LastingSearchDevice lasting(device, log);
+        CHECK(bake_adaptive(*solid, 40, progress, &lasting).words == field.words);
+        CHECK(bake(*solid, 24, progress, &lasting).texels == volume.texels);
+        CHECK((device.searched() > 0) == (calls > 1));
+        CHECK(log.warnings.size() == (calls < 1000 ? 1 : 0));
+    }
+    FailingSearchDevice device(3); // without anyone to catch it
+    CHECK_THROWS_AS(bake_adaptive(*solid, 40, progress, &device), DeviceError);
 }
