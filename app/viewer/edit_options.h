@@ -1,10 +1,8 @@
-// What an edit is made with beside its handles: how occluders act in it.
+// What an edit is made with beside its handles: how occluders act in it. Which of them are on, the document
+// says.
 #pragma once
 
 #include "engine/edit/recipe.h"
-
-#include <set>
-#include <string>
 
 namespace anvil {
 
@@ -12,8 +10,6 @@ namespace anvil {
 /// they were taken with.
 struct EditOptions {
     std::optional<Dilation> dilation;
-    /// Occluders that are switched off: the recipe keeps them, the edit names the others alone.
-    std::set<std::string> off;
     /// A hammer without handles acts within the radius around the place it strikes, not on the whole mesh.
     bool near_strike = false;
 };

@@ -85,7 +85,7 @@ Edit Editor::edit() const {
 
 std::optional<size_t> Editor::handle_at(const OrbitCamera& camera, double x, double y) const {
     std::optional<size_t> best;
-    double nearest = grab_pixels;
+    double nearest = grab_pixels * camera.unit;
     for (size_t i = 0; i < handles_.all.size(); ++i) {
         const ScreenPoint at = camera.project(target(handles_.all[i]));
         const double away = std::hypot(at.x - x, at.y - y);

@@ -7,7 +7,7 @@ namespace anvil {
 
 namespace {
 
-// Pixels from the centre.
+// Pixels from the centre, on a display of 96 dots an inch.
 constexpr double free_radius = 9;
 constexpr double arrow_begin = 16;
 constexpr double arrow_end = 78;
@@ -25,7 +25,7 @@ class Sketch {
   public:
     Sketch(const OrbitCamera& camera, const Vec3& centre)
         : camera_(camera), centre_(centre), middle_(camera.project(centre)),
-          pixel_(camera.pixel_size(middle_.depth)) {}
+          pixel_(camera.unit * camera.pixel_size(middle_.depth)) {}
 
     bool visible() const { return middle_.visible(); }
     glm::dvec2 middle() const { return {middle_.x, middle_.y}; }
@@ -124,7 +124,7 @@ std::vector<GizmoMark> gizmo_marks(const OrbitCamera& camera, const Vec3& centre
         return marks;
     }
     const glm::dvec2 middle = sketch.middle();
-    marks.push_back({{GizmoAction::turn_in_view, 0}, circle(middle, view_ring), false});
+    marks.push_back({{GizmoAction::turn_in_view, 0}, circle(middle, camera.unit * view_ring), false});
     for (int axis = 0; axis < 3; ++axis) {
         marks.push_back(ring(sketch, axis));
     }
@@ -141,16 +141,17 @@ std::vector<GizmoMark> gizmo_marks(const OrbitCamera& camera, const Vec3& centre
     }
     for (int axis = 0; axis < 3; ++axis) {
         const glm::dvec2 tip = sketch.at(along(axis, arrow_end));
-        if (glm::length(tip - middle) > shortest) {
+        if (glm::length(tip - middle) > camera.unit * shortest) {
             marks.push_back({{GizmoAction::move, axis}, {sketch.at(along(axis, arrow_begin)), tip}, false});
         }
     }
-    const glm::dvec2 corner = middle + view_ring * std::numbers::sqrt2 / 2 * glm::dvec2(1, -1);
+    const glm::dvec2 corner = middle + camera.unit * view_ring * std::numbers::sqrt2 / 2 * glm::dvec2(1, -1);
+    const double half = camera.unit * scale_half;
     marks.push_back({{GizmoAction::scale, 0},
-                     {corner + scale_half * glm::dvec2(-1, -1), corner + scale_half * glm::dvec2(1, -1),
-                      corner + scale_half * glm::dvec2(1, 1), corner + scale_half * glm::dvec2(-1, 1)},
+                     {corner + half * glm::dvec2(-1, -1), corner + half * glm::dvec2(1, -1),
+                      corner + half * glm::dvec2(1, 1), corner + half * glm::dvec2(-1, 1)},
                      true});
-    marks.push_back({{GizmoAction::move_freely, 0}, circle(middle, free_radius), true});
+    marks.push_back({{GizmoAction::move_freely, 0}, circle(middle, camera.unit * free_radius), true});
     return marks;
 }
 

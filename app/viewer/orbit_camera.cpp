@@ -156,11 +156,11 @@ Ray OrbitCamera::ray(double x, double y) const {
 ScreenPoint OrbitCamera::project(const Vec3& point) const {
     const Vec3 v = glm::conjugate(rotation_) * (point - eye());
     const double depth = -v.z;
-    const double unit = pixel_size(depth);
-    if (!(unit > 0)) {
+    const double pixel = pixel_size(depth);
+    if (!(pixel > 0)) {
         return {0, 0, depth};
     }
-    return {width_ / 2 + v.x / unit, height_ / 2 - v.y / unit, orthographic ? std::max(depth, 1e-30) : depth};
+    return {width_ / 2 + v.x / pixel, height_ / 2 - v.y / pixel, orthographic ? std::max(depth, 1e-30) : depth};
 }
 
 glm::mat4 OrbitCamera::view(const Vec3& origin) const {

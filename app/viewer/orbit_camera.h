@@ -31,6 +31,7 @@ class OrbitCamera {
     bool orthographic = false;
     bool trackball = false;      ///< turn() rolls freely; else `up` stays upright: a turntable
     double field_of_view = 0.61; ///< of the window's shorter side, radians
+    double unit = 1; ///< pixels of what is one on a display of 96 dots an inch: how large marks are
 
     void set_window(double width, double height);
     void set_up(UpAxis up); ///< turns the eye along: what was front stays front

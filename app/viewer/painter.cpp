@@ -33,8 +33,9 @@ vk::SemaphoreSubmitInfo at_all_stages(vk::Semaphore semaphore) {
 } // namespace
 
 Painter::Painter(Device& device, const Window& window)
-    : device_(device.state()), swapchain_(device_, window), ui_(device_, swapchain_.format()),
-      picture_(device_, swapchain_.format(), draws_on_cpu()), commands_(device_) {}
+    : device_(device.state()), swapchain_(device_, window), marks_(device_, swapchain_.format()),
+      ui_(device_, swapchain_.format()), picture_(device_, swapchain_.format(), draws_on_cpu()),
+      commands_(device_) {}
 
 Painter::~Painter() {
     try {
@@ -67,7 +68,7 @@ void Painter::warm_up() {
     }
 }
 
-Painted Painter::paint(const Scene& scene, const ImDrawData& panels, bool fine, bool kept, FrameLog& log) {
+Painted Painter::paint(const Scene& scene, const Cover& cover, bool fine, bool kept, FrameLog& log) {
     log.enter(FramePart::device);
     wait(); // what the last frame read may change now
     log.enter(FramePart::image);
@@ -79,7 +80,7 @@ Painted Painter::paint(const Scene& scene, const ImDrawData& panels, bool fine, 
     log.draws(picture_.prepare(scene, {swapchain_.size(), fine, kept}));
     log.enter(FramePart::recording);
     const vk::raii::CommandBuffer& commands = commands_.begin();
-    guarded("drawing", [&] { record(commands, *image, panels, kept); });
+    guarded("drawing", [&] { record(commands, *image, cover, kept); });
     log.enter(FramePart::submitting);
     const auto start = Clock::now();
     commands_.submit(at_all_stages(swapchain_.acquired()), at_all_stages(swapchain_.drawn(*image)));
@@ -111,8 +112,8 @@ void Painter::copy_picture(const vk::raii::CommandBuffer& commands, const Window
                   vk::ImageLayout::eColorAttachmentOptimal);
 }
 
-void Painter::record(const vk::raii::CommandBuffer& commands, const WindowImage& image,
-                     const ImDrawData& panels, bool kept) {
+void Painter::record(const vk::raii::CommandBuffer& commands, const WindowImage& image, const Cover& cover,
+                     bool kept) {
     full_barrier(commands); // the places that a drag has submitted
     picture_.record(commands);
     copy_picture(commands, image);
@@ -125,7 +126,8 @@ void Painter::record(const vk::raii::CommandBuffer& commands, const WindowImage&
                              .layerCount = 1,
                              .colorAttachmentCount = 1,
                              .pColorAttachments = &colour});
-    ui_.record(commands, panels);
+    marks_.record(commands, cover.marks, picture_.depths(), {extent.width, extent.height});
+    ui_.record(commands, cover.panels);
     commands.endRendering();
     if (kept) {
         keep_picture(commands, image);

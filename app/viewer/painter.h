@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/viewer/frame_log.h"
+#include "app/viewer/marks_pass.h"
 #include "app/viewer/scene_picture.h"
 #include "app/viewer/swapchain.h"
 #include "app/viewer/ui_pass.h"
@@ -28,10 +29,16 @@ class Painter {
     /// first, which takes a CPU a second. @throws DeviceError
     void warm_up();
 
+    /// What lies over the scene: marks, then panels.
+    struct Cover {
+        std::span<const shader::Mark> marks;
+        const ImDrawData& panels;
+    };
+
     /// Draws and shows, with whatever of the scene is drawn so far; waits for the frame before. `fine`:
     /// several samples a pixel. `kept`: all of the scene, however long it takes, and for picture().
     /// @throws DeviceError
-    Painted paint(const Scene& scene, const ImDrawData& panels, bool fine, bool kept, FrameLog& log);
+    Painted paint(const Scene& scene, const Cover& cover, bool fine, bool kept, FrameLog& log);
 
     /// The last frame that was kept. @throws DeviceError; InternalError before the first
     Picture picture();
@@ -41,13 +48,14 @@ class Painter {
 
   private:
     void wait();
-    void record(const vk::raii::CommandBuffer& commands, const WindowImage& image, const ImDrawData& panels,
+    void record(const vk::raii::CommandBuffer& commands, const WindowImage& image, const Cover& cover,
                 bool kept);
     void copy_picture(const vk::raii::CommandBuffer& commands, const WindowImage& image) const;
     void keep_picture(const vk::raii::CommandBuffer& commands, const WindowImage& image);
 
     DeviceState& device_;
     Swapchain swapchain_;
+    MarksPass marks_;
     UiPass ui_;
     ScenePicture picture_;
     double handing_over_ = 0; ///< milliseconds that the last frame took

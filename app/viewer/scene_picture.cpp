@@ -53,7 +53,7 @@ std::shared_ptr<ScenePicture::Drawn> ScenePicture::unused(Canvas& canvas, Window
     }
     return canvas.drawn.emplace_back(std::make_shared<Drawn>(
         Drawn{RenderTarget(device_, static_cast<uint32_t>(size.width), static_cast<uint32_t>(size.height),
-                           canvas.format.samples, canvas.format.colour),
+                           canvas.format.samples, canvas.format.colour, true),
               size}));
 }
 

@@ -43,6 +43,8 @@ class ScenePicture {
     bool complete() const { return complete_; }
     /// The newest picture, to be copied from; not before record().
     vk::Image image() const { return shown_.drawn->target.colour(); }
+    /// Of its surfaces, as shaders read them.
+    vk::ImageView depths() const { return shown_.drawn->target.depths(); }
     WindowSize size() const { return shown_.drawn->size; }
 
   private:

@@ -111,12 +111,7 @@ void play_occluder(const std::vector<std::string>& with, Session& session) {
     } else if (with[0] == "record") {
         session.occluders.records = with[1] == "on";
     } else if (with[0] == "on" || with[0] == "off") {
-        if (with[0] == "on") {
-            session.options.off.erase(with[1]);
-        } else {
-            session.options.off.insert(with[1]);
-        }
-        session.options_changed();
+        session.switch_occluder(with[1], with[0] == "on");
     } else if (!change_occluder(with, session)) {
         throw InputError("write: occluder add, move, turn, scale, influence, remove, select, on, off or "
                          "record");

@@ -111,7 +111,11 @@ void Session::commit() {
                              : edit.kind == EditKind::rotate ? "turn"
                                                              : "move";
     leave_pending();
-    ask(what, [this, edit, what](Progress& progress) { bench_->commit(edit, what, progress); });
+    ask(what, [this, edit, what, opening = shown_->opening](Progress& progress) {
+        if (bench_->shown()->opening == opening) { // else another file was opened meanwhile
+            bench_->commit(edit, what, progress);
+        }
+    });
 }
 
 void Session::drop() {
@@ -140,9 +144,11 @@ void Session::update() {
 }
 
 void Session::take_up() {
-    const std::shared_ptr<const PickSurface> picked_on = shown_->pick;
-    shown_ = bench_->shown();
-    if (shown_->pick != picked_on) {
+    const std::shared_ptr<const Shown> before = std::exchange(shown_, bench_->shown());
+    if (shown_->document.off != before->document.off) {
+        options_changed();
+    }
+    if (shown_->pick != before->pick) {
         editor.surface_changed(camera, shown_->pick.get());
         line.surface_changed(shown_->pick.get());
         asked_for_.clear();
@@ -165,17 +171,24 @@ void Session::take_up() {
         examined_ = shown_->document.surface->file;
         health_.start(examined_);
     }
-    if (shown_->mesh && shown_->mesh_file != opened_) {
-        opened_ = shown_->mesh_file;
-        recent_files_.add(shown_->recipe_file.empty() ? shown_->mesh_file : shown_->recipe_file);
-        recent_ = recent_files_.list();
-        editor.set_lasting_pins({});
-        editor.radius = default_radius * bounds().diagonal();
-        occluders.set_scene_size(bounds().diagonal() > 0 ? bounds().diagonal() : 1);
-        occluders.select("");
-        options = {};
-        camera.frame(shown_->document.surface->positions, camera.side(Vec3(0.35, 0.25, 1.0)));
+    if (shown_->mesh && shown_->opening != opening_) {
+        opening_ = shown_->opening;
+        take_up_document();
     }
+}
+
+/// What was under way was of the one before.
+void Session::take_up_document() {
+    leave_pending();
+    line.surface_changed(nullptr);
+    recent_files_.add(shown_->recipe_file.empty() ? shown_->mesh_file : shown_->recipe_file);
+    look_for_recent();
+    editor.set_lasting_pins({});
+    editor.radius = default_radius * bounds().diagonal();
+    occluders.set_scene_size(bounds().diagonal() > 0 ? bounds().diagonal() : 1);
+    occluders.select("");
+    options = {};
+    camera.frame(shown_->document.surface->positions, camera.side(Vec3(0.35, 0.25, 1.0)));
 }
 
 bool Session::settled() const {
@@ -206,6 +219,10 @@ void Session::handle(const InputEvent& event) {
     if (event.kind == InputEvent::Kind::drop) {
         if (!event.files.empty()) {
             want_file(event.files.front());
+        }
+        if (event.files.size() > 1) {
+            tell("one file is opened at a time: of " + std::to_string(event.files.size()) + ", " +
+                 std::filesystem::path(event.files.front()).filename().string());
         }
         return;
     }

@@ -98,6 +98,10 @@ class Session {
     void options_changed();
     /// There is something to take: handles, or a hammer's motion.
     bool has_pending() const;
+    /// The edit under way moves something.
+    bool moves() const;
+    /// No file has all of what is there: the recipe, and the edit under way if it moves something.
+    bool unsaved() const { return shown_->document.unsaved || moves(); }
     /// The edit as it would be taken.
     Edit pending() const;
     /// One line: what goes on and which keys matter now.
@@ -107,6 +111,8 @@ class Session {
     /// Another recipe, as one step; `merge` as Document::change().
     void change(const Recipe& next, const std::string& what, const std::string& merge = {});
     void frame_all();
+    /// An occluder that is off is left out of the edit under way and the next ones. One step.
+    void switch_occluder(const std::string& name, bool on);
     /// What is selected, else the region of the edit, else all.
     void frame_selection();
     // Of what is selected.
@@ -127,6 +133,7 @@ class Session {
     void tell(const std::string& text) { notices_.push_back({false, text}); }
     void dismiss_notices() { notices_.clear(); }
     const std::vector<std::filesystem::path>& recent() const { return recent_; }
+    void look_for_recent() { recent_ = recent_files_.list(); } ///< some may be gone meanwhile
     const std::vector<std::shared_ptr<LostSession>>& lost() const { return lost_; }
     const std::vector<std::string>& device_choices() const { return device_choices_; }
     const std::string& driver_of(size_t choice) const { return drivers_[choice]; }
@@ -154,6 +161,7 @@ class Session {
     std::optional<std::vector<OccluderUse>> uses_now() const;
     Anchors strike_anchor() const;
     void take_up();
+    void take_up_document();
     void failed(const std::exception_ptr& error);
     void ask(const std::string& what, Worker::Job job, const std::string& replaces = "");
 
@@ -162,7 +170,7 @@ class Session {
     MirrorPlane mirror_plane_;
     std::shared_ptr<const Shown> shown_;
     std::chrono::steady_clock::time_point zoomed_at_;
-    std::filesystem::path opened_; ///< what the camera was last set for
+    size_t opening_ = 0; ///< Shown::opening that the camera was last set for
     std::vector<Notice> notices_;
     std::vector<std::string> device_choices_;
     std::vector<std::string> drivers_; ///< of the choices

@@ -3,6 +3,8 @@
 
 #include "engine/core/error.h"
 
+#include <algorithm>
+
 namespace anvil {
 
 namespace {
@@ -21,7 +23,6 @@ void unless_missing(Work&& work, Missing&& missing) {
 } // namespace
 
 void Session::open(const std::filesystem::path& file, const std::filesystem::path& mesh) {
-    editor.clear();
     ask("opening " + file.filename().string(), [this, file, mesh](Progress& progress) {
         unless_missing([&] { bench_->open(file, mesh, progress); },
                        [&](const MissingMesh& error) {
@@ -39,7 +40,6 @@ void Session::recover() {
 }
 
 void Session::recover(const std::shared_ptr<LostSession>& lost, const std::filesystem::path& mesh) {
-    editor.clear();
     ask("recovering a session", [this, lost, mesh](Progress& progress) {
         unless_missing([&] { bench_->recover(*lost, mesh, progress); },
                        [&](const MissingMesh& error) {
@@ -63,6 +63,14 @@ void Session::take_missing_mesh(const std::filesystem::path& mesh) {
 
 std::optional<std::filesystem::path> Session::take_wanted_file() {
     return std::exchange(wanted_file_, std::nullopt);
+}
+
+bool Session::moves() const {
+    const std::vector<PickedHandle>& handles = editor.handles();
+    return occluders.has_motion() ||
+           std::any_of(handles.begin(), handles.end(), [](const PickedHandle& handle) {
+               return handle.by != Vec3(0) || handle.degrees != 0 || !handle.way.empty();
+           });
 }
 
 std::shared_ptr<LostSession> Session::left_behind() const {

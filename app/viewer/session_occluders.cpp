@@ -17,15 +17,29 @@ bool Session::has_pending() const {
     return editor.has_handles() || occluders.has_motion();
 }
 
+void Session::switch_occluder(const std::string& name, bool on) {
+    const std::string what = "switching " + name + (on ? " on" : " off");
+    ask(what, [this, name, on, what](Progress& progress) {
+        std::set<std::string> off = bench_->shown()->document.off;
+        if (on) {
+            off.erase(name);
+        } else {
+            off.insert(name);
+        }
+        bench_->switch_off(off, what, progress);
+    });
+}
+
 /// All occluders that are on, each where it is now; nothing where that is what the recipe says anyway.
 std::optional<std::vector<OccluderUse>> Session::uses_now() const {
     const std::map<std::string, std::vector<MotionPose>> motions = occluders.motions();
-    if (options.off.empty() && motions.empty() && !occluders.dragging()) {
+    const std::set<std::string>& off = shown_->document.off;
+    if (off.empty() && motions.empty() && !occluders.dragging()) {
         return std::nullopt;
     }
     std::vector<OccluderUse> uses;
     for (const OccluderView& occluder : shown_->occluders) {
-        if (options.off.contains(occluder.name)) {
+        if (off.contains(occluder.name)) {
             continue;
         }
         OccluderUse& use = uses.emplace_back();
@@ -86,7 +100,10 @@ void Session::follow() {
     if (has_pending()) {
         followed_at_ = std::chrono::steady_clock::now();
         looked_ahead_ = false;
-        const auto job = [this, edit = pending()](Progress& progress) {
+        const auto job = [this, edit = pending(), opening = shown_->opening](Progress& progress) {
+            if (bench_->shown()->opening != opening) {
+                return; // another file was opened meanwhile
+            }
             refused_ = true;
             bench_->preview(edit, progress);
             refused_ = false;

@@ -83,9 +83,9 @@ Scene Session::scene() const {
             item.mesh = occluder.mesh;
             const Transform at = occluders.shown(occluder);
             item.model_view = model_view(camera, at);
-            item.colour = options.off.contains(occluder.name)     ? off_colour
-                          : occluder.name == occluders.selected() ? selected_colour
-                                                                  : occluder_colour;
+            item.colour = shown_->document.off.contains(occluder.name) ? off_colour
+                          : occluder.name == occluders.selected()      ? selected_colour
+                                                                       : occluder_colour;
             item.tinted = false;
             const Placement place = placement(at);
             if (item.mesh->box.empty()) {

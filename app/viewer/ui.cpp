@@ -75,7 +75,10 @@ Ui::Ui(Window& window, double scale) {
     const auto size = static_cast<float>(scale);
     std::error_code error;
     if (std::filesystem::exists(font_file, error)) {
-        io.Fonts->AddFontFromFileTTF(font_file, font_pixels * size);
+        // Names of files have letters of other languages too. 0 ends it.
+        static constexpr std::array<ImWchar, 9> letters{0x20,   0x24F,  0x370,  0x52F, 0x1E00,
+                                                        0x1FFF, 0x2010, 0x205E, 0};
+        io.Fonts->AddFontFromFileTTF(font_file, font_pixels * size, nullptr, letters.data());
     } else {
         ImFontConfig config;
         config.SizePixels = 13 * size;

@@ -50,6 +50,7 @@ class Viewer {
           ui_(window_, window_.scale()), painter_(*device_, window_),
           session_(device_, options.device, [] { Window::wake(); }) {
         session_.view.less_in_motion = painter_.draws_on_cpu();
+        session_.camera.unit = window_.scale();
         player_ = player;
         if (lost) {
             session_.recover(lost);
@@ -101,8 +102,10 @@ class Viewer {
         ui_.begin_frame(size, seconds_since(last_frame_));
         last_frame_ = start;
         const bool bare = panels_.files.wants_picture();
+        const Scene scene = session_.scene();
+        Marks marks(session_.camera, scene);
         if (!bare) {
-            draw_overlay(session_);
+            draw_overlay(session_, marks);
             panels_.show(session_, times_);
         }
         ImGui::Render();
@@ -114,7 +117,7 @@ class Viewer {
         const bool many = session_.shown().look->coarse != nullptr;
         const bool fine = !painter_.draws_on_cpu() || ((resting() || bare) && !many);
         const Painted painted =
-            painter_.paint(session_.scene(), *ImGui::GetDrawData(), fine, bare || wants_picture(), log_);
+            painter_.paint(scene, {marks.all(), *ImGui::GetDrawData()}, fine, bare || wants_picture(), log_);
         fine_ = fine && painted == Painted::all;
         in_part_ = painted == Painted::in_part;
         log_.enter(FramePart::pictures);

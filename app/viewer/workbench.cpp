@@ -156,6 +156,7 @@ void Workbench::take_document(std::unique_ptr<Document> opened, Progress& progre
     occluders_.reset();
     recipe_.reset();
     document_ = std::move(opened);
+    ++opening_;
     show_document(progress);
 }
 
@@ -169,6 +170,7 @@ void Workbench::show_document(Progress& progress) {
     }
     Shown next;
     next.document = document().state();
+    next.opening = opening_;
     const std::shared_ptr<const SurfaceVersion>& surface = next.document.surface;
     const std::shared_ptr<const Shown> before = shown();
     const bool same_surface = surface_ == surface && before->mesh;
@@ -379,6 +381,11 @@ void Workbench::change(const Recipe& next, const std::string& what, const std::s
         drop_preview();
         throw;
     }
+    show_document(progress);
+}
+
+void Workbench::switch_off(const std::set<std::string>& names, const std::string& what, Progress& progress) {
+    document().switch_off(names, what);
     show_document(progress);
 }
 

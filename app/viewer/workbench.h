@@ -17,6 +17,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,7 @@ struct Outcome {
 /// One state of the workbench; never changed once it is shown.
 struct Shown {
     std::shared_ptr<DrawnMesh> mesh;         ///< nullptr: nothing is open
+    size_t opening = 0;                      ///< how many documents have been opened: 1 is the first
     std::shared_ptr<const PickSurface> pick; ///< what of it is not hidden
     std::shared_ptr<const SurfaceLook> look = std::make_shared<SurfaceLook>();
     std::shared_ptr<const DrawnRegion> region;
@@ -92,6 +94,8 @@ class Workbench {
     void commit(const Edit& edit, const std::string& what, Progress& progress);
     /// Takes another recipe: occluders, past edits.
     void change(const Recipe& next, const std::string& what, const std::string& merge, Progress& progress);
+    /// Which occluders are off, as Document::switch_off().
+    void switch_off(const std::set<std::string>& names, const std::string& what, Progress& progress);
     void select(const SelectionChange& change);
     /// The way along the surface through these points. @throws InputError where there is none
     std::vector<Vec3> trace(const std::vector<SurfaceAddress>& points);
@@ -126,6 +130,7 @@ class Workbench {
     Log log_;
     Autosave autosave_;
     std::unique_ptr<Document> document_;
+    size_t opening_ = 0;
     std::shared_ptr<const SurfaceVersion> surface_; ///< that `scene_` is of
     SurfaceLooks looks_;
     std::unique_ptr<DragScene> scene_;

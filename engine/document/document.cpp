@@ -38,6 +38,14 @@ bool says_the_same(const Recipe& a, const Recipe& b) {
     return a.mesh == b.mesh && a.occluders == b.occluders && a.edits == b.edits;
 }
 
+std::set<std::string> known_of(std::set<std::string> names, const std::vector<Occluder>& occluders) {
+    std::erase_if(names, [&](const std::string& name) {
+        return std::none_of(occluders.begin(), occluders.end(),
+                            [&](const Occluder& o) { return o.name == name; });
+    });
+    return names;
+}
+
 } // namespace
 
 MissingMesh::MissingMesh(const fs::path& recipe, fs::path mesh)
@@ -81,7 +89,7 @@ Document::Document(const Recipe& recipe, std::shared_ptr<const Mesh> mesh, const
 }
 
 Document::Step Document::step_of(const Recipe& recipe, const std::string& what, const std::string& merge) {
-    Step step{what, merge, nullptr, {}, versions_.chain_of(recipe)};
+    Step step{what, merge, nullptr, {}, versions_.chain_of(recipe), {}};
     const Step* now = steps_.empty() ? nullptr : &steps_[step_];
     step.occluders = now != nullptr && *now->occluders == recipe.occluders
                          ? now->occluders
@@ -89,6 +97,9 @@ Document::Step Document::step_of(const Recipe& recipe, const std::string& what, 
     for (size_t i = 0; i < recipe.edits.size(); ++i) {
         const bool same = now != nullptr && i < now->edits.size() && *now->edits[i] == recipe.edits[i];
         step.edits.push_back(same ? now->edits[i] : std::make_shared<const Edit>(recipe.edits[i]));
+    }
+    if (now != nullptr) {
+        step.off = known_of(now->off, recipe.occluders);
     }
     return step;
 }
@@ -127,8 +138,12 @@ std::shared_ptr<const SurfaceVersion> Document::surface_before(size_t index, con
 }
 
 DocumentState Document::state() const {
-    return {recipe_, surface_, can_undo() ? steps_[step_].what : std::string(),
-            can_redo() ? steps_[step_ + 1].what : std::string(), unsaved()};
+    return {recipe_,
+            surface_,
+            can_undo() ? steps_[step_].what : std::string(),
+            can_redo() ? steps_[step_ + 1].what : std::string(),
+            unsaved(),
+            steps_[step_].off};
 }
 
 /// What is applied is what a file of it says.
@@ -174,6 +189,19 @@ void Document::change(const Recipe& next, const std::string& what, const EditWor
     recipe_ = std::make_shared<const Recipe>(std::move(checked));
     surface_ = std::move(surface);
     foreseen_.clear(); // what of it was taken has places of its own
+    keep_models();
+}
+
+void Document::switch_off(std::set<std::string> names, const std::string& what) {
+    Step step = steps_[step_];
+    step.off = known_of(std::move(names), *step.occluders);
+    if (step.off == steps_[step_].off) {
+        return;
+    }
+    step.what = what;
+    step.merge.clear();
+    steps_.resize(++step_);
+    steps_.push_back(std::move(step));
     keep_models();
 }
 

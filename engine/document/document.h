@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct DocumentState {
     std::string undo;                              ///< what undo() would take back; empty: nothing
     std::string redo;
     bool unsaved = false;
+    std::set<std::string> off; ///< occluders that are switched off
 };
 
 /// The recipe is the whole state: each step of the history is a recipe, and the surface is what forge() makes
@@ -80,6 +82,11 @@ class Document {
     void change(const Recipe& next, const std::string& what, const EditWork& work,
                 const std::string& merge = {});
 
+    /// Which occluders are off from here on: one step of the history like another, but none that a file knows
+    /// of, since recipes have no word for it. It is for whoever makes the next edits, which name the others
+    /// alone; edits that are there are not changed. Names that the recipe does not have are left out.
+    void switch_off(std::set<std::string> names, const std::string& what);
+
     /// The surfaces that the recipe would make, without taking it: of the file, then after each edit; those
     /// that memory does not allow are nullptr, the last one is there. They stay until others are foreseen, so
     /// that change() finds them. @throws as change()
@@ -121,6 +128,7 @@ class Document {
         std::shared_ptr<const std::vector<Occluder>> occluders;
         std::vector<std::shared_ptr<const Edit>> edits;
         VersionStore::Chain chain;
+        std::set<std::string> off;
     };
 
     Document(const Recipe& recipe, std::shared_ptr<const Mesh> mesh, const EditWork& work,

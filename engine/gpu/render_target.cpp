@@ -46,8 +46,9 @@ vk::SampleCountFlagBits RenderTarget::sample_count(const DeviceState& device) {
 }
 
 RenderTarget::RenderTarget(DeviceState& device, uint32_t width, uint32_t height,
-                           vk::SampleCountFlagBits samples, vk::Format format)
-    : width_(width), height_(height), multisampled_(samples != vk::SampleCountFlagBits::e1) {
+                           vk::SampleCountFlagBits samples, vk::Format format, bool keeps_depth)
+    : width_(width), height_(height), multisampled_(samples != vk::SampleCountFlagBits::e1),
+      keeps_depth_(keeps_depth) {
     const uint32_t limit = std::min({device.limits.maxImageDimension2D, device.limits.maxFramebufferWidth,
                                      device.limits.maxFramebufferHeight});
     if (width > limit || height > limit) {
@@ -65,9 +66,15 @@ RenderTarget::RenderTarget(DeviceState& device, uint32_t width, uint32_t height,
             resolved_ = make_attachment(device, extent, format, vk::SampleCountFlagBits::e1, read,
                                         vk::ImageAspectFlagBits::eColor);
         }
-        depth_ =
-            make_attachment(device, extent, depth_format(device), samples,
-                            vk::ImageUsageFlagBits::eDepthStencilAttachment, vk::ImageAspectFlagBits::eDepth);
+        const auto depth = vk::ImageUsageFlagBits::eDepthStencilAttachment;
+        const auto kept = keeps_depth ? depth | vk::ImageUsageFlagBits::eSampled : depth;
+        depth_ = make_attachment(device, extent, depth_format(device), samples, multisampled_ ? depth : kept,
+                                 vk::ImageAspectFlagBits::eDepth);
+        if (multisampled_ && keeps_depth) {
+            resolved_depth_ =
+                make_attachment(device, extent, depth_format(device), vk::SampleCountFlagBits::e1, kept,
+                                vk::ImageAspectFlagBits::eDepth);
+        }
     });
 }
 
@@ -94,11 +101,18 @@ void RenderTarget::begin(const vk::raii::CommandBuffer& commands, Part part) con
         colour.resolveImageLayout = drawn;
         colour.storeOp = keep;
     }
-    const vk::RenderingAttachmentInfo depth{.imageView = *depth_.view,
-                                            .imageLayout = tested,
-                                            .loadOp = load,
-                                            .storeOp = keep,
-                                            .clearValue = vk::ClearDepthStencilValue{1.0F, 0}};
+    vk::RenderingAttachmentInfo depth{
+        .imageView = *depth_.view,
+        .imageLayout = tested,
+        .loadOp = load,
+        .storeOp = keeps_depth_ && !multisampled_ ? vk::AttachmentStoreOp::eStore : keep,
+        .clearValue = vk::ClearDepthStencilValue{1.0F, 0}};
+    if (resolves && keeps_depth_) {
+        change_layout(commands, *resolved_depth_.image, undefined, tested, vk::ImageAspectFlagBits::eDepth);
+        depth.resolveMode = vk::ResolveModeFlagBits::eSampleZero; // which every device has
+        depth.resolveImageView = *resolved_depth_.view;
+        depth.resolveImageLayout = tested;
+    }
     const vk::Rect2D area{{0, 0}, {width_, height_}};
     commands.beginRendering({.renderArea = area,
                              .layerCount = 1,
@@ -117,6 +131,11 @@ void RenderTarget::end(const vk::raii::CommandBuffer& commands, bool last) const
     }
     change_layout(commands, colour(), vk::ImageLayout::eColorAttachmentOptimal,
                   vk::ImageLayout::eTransferSrcOptimal);
+    if (keeps_depth_) {
+        change_layout(commands, *(multisampled_ ? resolved_depth_ : depth_).image,
+                      vk::ImageLayout::eDepthAttachmentOptimal, vk::ImageLayout::eShaderReadOnlyOptimal,
+                      vk::ImageAspectFlagBits::eDepth);
+    }
 }
 
 } // namespace anvil

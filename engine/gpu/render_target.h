@@ -18,9 +18,10 @@ class RenderTarget {
   public:
     static constexpr vk::Format colour_format = vk::Format::eR8G8B8A8Srgb; ///< of pictures
 
-    /// @throws DeviceError if the size exceeds the device's limits or memory is out.
+    /// `keeps_depth`: for depths(). @throws DeviceError if the size exceeds the device's limits or memory is
+    /// out.
     RenderTarget(DeviceState& device, uint32_t width, uint32_t height, vk::SampleCountFlagBits samples,
-                 vk::Format format = colour_format);
+                 vk::Format format = colour_format, bool keeps_depth = false);
 
     /// A picture may be drawn in parts, each with a begin() and end() of its own.
     struct Part {
@@ -34,6 +35,8 @@ class RenderTarget {
     /// Ends drawing; after the last part the picture is ready to be copied from colour().
     void end(const vk::raii::CommandBuffer& commands, bool last = true) const;
     vk::Image colour() const { return *(multisampled_ ? resolved_ : colour_).image; }
+    /// One depth a pixel, in the layout that shaders read once the last part is drawn. @pre keeps_depth
+    vk::ImageView depths() const { return *(multisampled_ ? resolved_depth_ : depth_).view; }
 
     /// Depth format that every device of this kind can draw to.
     static vk::Format depth_format(const DeviceState& device);
@@ -44,9 +47,11 @@ class RenderTarget {
     uint32_t width_;
     uint32_t height_;
     bool multisampled_;
+    bool keeps_depth_;
     Attachment colour_;
     Attachment resolved_;
     Attachment depth_;
+    Attachment resolved_depth_;
 };
 
 } // namespace anvil

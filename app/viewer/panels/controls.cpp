@@ -4,6 +4,14 @@
 
 namespace anvil {
 
+float unit() {
+    return ImGui::GetFontSize() / 14;
+}
+
+float side_width() {
+    return 290 * unit();
+}
+
 bool length_slider(const char* label, double& value, double size) {
     auto number = static_cast<float>(value);
     const bool changed = ImGui::SliderFloat(label, &number, static_cast<float>(1e-3 * size),

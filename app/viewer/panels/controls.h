@@ -5,8 +5,11 @@
 
 namespace anvil {
 
+/// Pixels of what is one pixel on a display of 96 dots an inch. Within a frame of ImGui.
+float unit();
+
 /// The width of the panels at the window's sides, pixels.
-constexpr float side_width = 290;
+float side_width();
 
 /// A slider for lengths from a thousandth of `size` to all of it. Whether it was moved.
 bool length_slider(const char* label, double& value, double size);

@@ -1,5 +1,7 @@
 #include "app/viewer/panels/curve_editor.h"
 
+#include "app/viewer/panels/controls.h"
+
 #include <algorithm>
 #include <cmath>
 #include <imgui.h>
@@ -8,7 +10,7 @@ namespace anvil {
 
 namespace {
 
-constexpr float height = 150;
+constexpr float height = 150; ///< on a display of 96 dots an inch
 constexpr float grab_pixels = 8;
 constexpr double slope_reach = 0.12; ///< of t: how long the handles of slopes are
 constexpr double most_slope = 50;
@@ -38,8 +40,8 @@ struct CurveEditor::Canvas {
 
     /// All of the curve, and room to drag it further.
     explicit Canvas(const ShapeFunction& phi)
-        : low(ImGui::GetCursorScreenPos()), size(ImGui::GetContentRegionAvail().x, height), least(-0.3),
-          most(1.15) {
+        : low(ImGui::GetCursorScreenPos()), size(ImGui::GetContentRegionAvail().x, height * unit()),
+          least(-0.3), most(1.15) {
         constexpr int steps = 200;
         for (int i = 0; i <= steps; ++i) {
             const double value = 1.1 * phi(static_cast<double>(i) / steps);

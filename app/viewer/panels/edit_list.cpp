@@ -76,8 +76,8 @@ void EditList::show(Session& session, PanelColumn& column) {
         draft_.reset();
         return;
     }
-    column.begin("Edits");
-    ImGui::PushItemWidth(-110);
+    column.begin("Edits", session.view.facts ? 0.5F : 1.0F);
+    ImGui::PushItemWidth(-110 * unit());
     for (size_t i = 0; i < draft_->edits.size(); ++i) { // a removal ends it sooner
         show_edit(session, i);
     }

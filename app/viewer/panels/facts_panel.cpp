@@ -16,7 +16,7 @@ const ImVec4 warning_colour(1.0F, 0.85F, 0.5F, 1);
 
 void row(const char* title, const std::string& value) {
     ImGui::TextDisabled("%s", title);
-    ImGui::SameLine(130);
+    ImGui::SameLine(130 * unit());
     ImGui::TextUnformatted(value.c_str());
 }
 
@@ -61,15 +61,11 @@ void show_times(const SurfaceVersion& surface) {
 
 } // namespace
 
-void show_facts(Session& session, bool& open) {
+void show_facts(Session& session, PanelColumn& column, bool& open) {
     if (!open || !session.shown().mesh) {
         return;
     }
-    const ImVec2 window = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos(ImVec2(8, window.y - 70), ImGuiCond_Appearing, ImVec2(0, 1));
-    ImGui::SetNextWindowSizeConstraints(ImVec2(1.2F * side_width, 0),
-                                        ImVec2(1.2F * side_width, window.y - 110));
-    ImGui::Begin("Mesh and times", &open, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize);
+    column.begin("Mesh and times", 1, &open);
     show_mesh(session);
     ImGui::Separator();
     const SurfaceVersion& surface = *session.shown().document.surface;
@@ -82,7 +78,7 @@ void show_facts(Session& session, bool& open) {
     ImGui::Separator();
     ImGui::TextWrapped("device: %s\ndriver: %s", session.shown().device.c_str(),
                        session.shown().driver.c_str());
-    ImGui::End();
+    column.end();
 }
 
 } // namespace anvil

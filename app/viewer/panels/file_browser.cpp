@@ -1,5 +1,8 @@
 #include "app/viewer/panels/file_browser.h"
 
+#include "app/viewer/panels/controls.h"
+
+#include <algorithm>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
@@ -9,7 +12,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr float list_height = 300;
+constexpr float list_height = 300; ///< where the window is high enough
+constexpr float beside_list = 190; ///< what else a dialog shows
+constexpr float least_list = 50;
 
 bool pressed(ImGuiKey_ key) {
     return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key));
@@ -71,7 +76,10 @@ void FileBrowser::show_folders_above() {
 /// Whether an entry was double-clicked.
 bool FileBrowser::show_entries() {
     bool taken = false;
-    ImGui::BeginChild("entries", ImVec2(0, list_height), true);
+    ImGui::BeginChild("entries",
+                      ImVec2(0, std::clamp(ImGui::GetIO().DisplaySize.y - beside_list * unit(),
+                                           least_list * unit(), list_height * unit())),
+                      true);
     for (size_t i = 0; i < listing_.entries.size(); ++i) {
         const FolderEntry& entry = listing_.entries[i];
         ImGui::PushID(static_cast<int>(i));
@@ -86,7 +94,7 @@ bool FileBrowser::show_entries() {
             scrolls_ = false;
         }
         if (!entry.is_folder) {
-            ImGui::SameLine(ImGui::GetContentRegionMax().x - 70);
+            ImGui::SameLine(ImGui::GetContentRegionMax().x - 70 * unit());
             ImGui::TextDisabled("%s", file_size_text(entry.bytes).c_str());
         }
         ImGui::PopID();
@@ -107,7 +115,7 @@ bool FileBrowser::show_name() {
         ImGui::SetKeyboardFocusHere();
         wants_focus_ = false;
     }
-    ImGui::SetNextItemWidth(-60);
+    ImGui::SetNextItemWidth(-60 * unit());
     const bool entered = ImGui::InputText("name", &name_, ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::PopID();
     return entered;

@@ -1,5 +1,8 @@
 #include "app/viewer/panels/file_dialogs.h"
 
+#include "app/viewer/panels/controls.h"
+
+#include <algorithm>
 #include <array>
 #include <imgui.h>
 
@@ -24,9 +27,7 @@ fs::path named_like(const Session& session, const char* extension) {
 } // namespace
 
 void FileDialogs::show(Session& session) {
-    if (const auto wanted = session.take_wanted_file()) {
-        open(session, *wanted);
-    }
+    take_dropped(session);
     if (session.missing_mesh() && !waits()) {
         begin(Question::missing_mesh, session.missing_mesh()->file);
         question_text_ = session.missing_mesh()->text;
@@ -38,16 +39,31 @@ void FileDialogs::show(Session& session) {
     lost_dialog(session);
 }
 
+/// Into a dialog that reads, a file is its answer; into one that writes, what is to be written. Other
+/// questions come first.
+void FileDialogs::take_dropped(Session& session) {
+    if (!overwrite_.empty() || (after_ && !saving_) || !session.lost().empty()) {
+        return;
+    }
+    const auto wanted = session.take_wanted_file();
+    if (!wanted) {
+        return;
+    }
+    if (question_ == Question::none) {
+        open(session, *wanted);
+    } else if (reads()) {
+        dropped_ = wanted;
+    } else {
+        browser_.begin(*wanted, extensions_of(question_), true);
+    }
+}
+
 /// A window in front of another would leave that one open, unseen, and with it the mouse.
 bool FileDialogs::waits() const {
     return question_ != Question::none || !overwrite_.empty() || (after_ && !saving_);
 }
 
-void FileDialogs::begin(Question question, const fs::path& file) {
-    if (waits()) {
-        return;
-    }
-    const bool reads = question == Question::open || question == Question::missing_mesh;
+std::vector<std::string> FileDialogs::extensions_of(Question question) {
     std::vector<std::string> extensions = mesh_files;
     if (question == Question::open) {
         extensions.emplace_back(".json");
@@ -56,14 +72,21 @@ void FileDialogs::begin(Question question, const fs::path& file) {
     } else if (question == Question::save_picture) {
         extensions = {".png"};
     }
-    browser_.begin(file, std::move(extensions), !reads);
+    return extensions;
+}
+
+void FileDialogs::begin(Question question, const fs::path& file) {
+    if (waits()) {
+        return;
+    }
     question_ = question;
+    browser_.begin(file, extensions_of(question), !reads());
     question_text_.clear();
     begins_ = true;
 }
 
 void FileDialogs::ask_to_quit(const Session& session) {
-    if (session.shown().document.unsaved) {
+    if (session.unsaved()) {
         after_ = [this] { quit_ = true; };
     } else {
         quit_ = true;
@@ -75,7 +98,7 @@ void FileDialogs::ask_to_open() {
 }
 
 void FileDialogs::open(Session& session, const fs::path& file) {
-    if (session.shown().document.unsaved) {
+    if (session.unsaved()) {
         after_ = [&session, file] { session.open(file); };
     } else {
         session.open(file);
@@ -122,7 +145,7 @@ void FileDialogs::file_dialog(Session& session) {
     if (std::exchange(begins_, false) || (overwrite_.empty() && !ImGui::IsPopupOpen(title))) {
         ImGui::OpenPopup(title);
     }
-    ImGui::SetNextWindowSize(ImVec2(620, 0));
+    ImGui::SetNextWindowSize(ImVec2(std::min(620 * unit(), ImGui::GetIO().DisplaySize.x), 0));
     if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
         return;
     }
@@ -130,9 +153,11 @@ void FileDialogs::file_dialog(Session& session) {
         ImGui::TextWrapped("%s", question_text_.c_str());
     }
     std::optional<fs::path> taken = browser_.show();
-    const bool reads = question_ == Question::open || question_ == Question::missing_mesh;
-    if (ImGui::Button(reads ? "Open" : "Save") && !taken) {
+    if (ImGui::Button(reads() ? "Open" : "Save") && !taken) {
         taken = browser_.take();
+    }
+    if (dropped_) {
+        taken = std::exchange(dropped_, std::nullopt);
     }
     ImGui::SameLine();
     const bool left = ImGui::Button("Cancel") || escape_pressed();
@@ -141,18 +166,27 @@ void FileDialogs::file_dialog(Session& session) {
     }
     ImGui::EndPopup();
     if (taken) {
-        std::error_code failed;
-        if (!reads && fs::exists(*taken, failed)) {
-            overwrite_ = *taken;
-        } else {
-            answer(session, *taken);
-        }
+        take(session, *taken);
     } else if (left) {
-        if (question_ == Question::missing_mesh) {
-            session.leave_missing_mesh();
-        }
-        question_ = Question::none;
-        saving_ = false;
+        leave(session);
+    }
+}
+
+void FileDialogs::take(Session& session, const fs::path& file) {
+    std::error_code failed;
+    if (!reads() && fs::exists(file, failed)) {
+        overwrite_ = file;
+    } else {
+        answer(session, file);
+    }
+}
+
+void FileDialogs::leave(Session& session) {
+    if (question_ == Question::missing_mesh) {
+        session.leave_missing_mesh();
+    }
+    question_ = Question::none;
+    if (std::exchange(saving_, false)) { // what waits for it stays undone too
         after_ = nullptr;
     }
 }
@@ -205,7 +239,7 @@ void FileDialogs::overwrite_dialog(Session& session) {
 void FileDialogs::go_on_after_saving(const Session& session) {
     if (saving_ && question_ == Question::none && overwrite_.empty() && session.settled()) {
         saving_ = false;
-        if (const auto after = std::exchange(after_, nullptr); after && !session.shown().document.unsaved) {
+        if (const auto after = std::exchange(after_, nullptr); after && !session.unsaved()) {
             after();
         }
     }
@@ -229,6 +263,9 @@ void FileDialogs::unsaved_dialog(Session& session) {
         ImGui::EndPopup();
         if (saves) {
             saving_ = true;
+            if (session.moves()) { // what is under way is part of it
+                session.commit();
+            }
             save(session);
         } else if (loses || stays) {
             const auto after = std::exchange(after_, nullptr);

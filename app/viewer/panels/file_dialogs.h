@@ -35,8 +35,13 @@ class FileDialogs {
     enum class Question : uint8_t { none, open, missing_mesh, save_recipe, save_mesh, save_picture };
 
     bool waits() const;
+    bool reads() const { return question_ == Question::open || question_ == Question::missing_mesh; }
+    static std::vector<std::string> extensions_of(Question question);
+    void take_dropped(Session& session);
     void begin(Question question, const std::filesystem::path& file);
     void file_dialog(Session& session);
+    void take(Session& session, const std::filesystem::path& file);
+    void leave(Session& session);
     void answer(Session& session, const std::filesystem::path& file);
     void overwrite_dialog(Session& session);
     void unsaved_dialog(Session& session);
@@ -47,10 +52,11 @@ class FileDialogs {
     bool begins_ = false; ///< its window is to be opened
     FileBrowser browser_;
     std::string question_text_;
-    std::filesystem::path folder_;    ///< of the file that was taken last
-    std::filesystem::path overwrite_; ///< is there already; empty: nothing to ask
-    std::function<void()> after_;     ///< what waits for the answer about unsaved changes
-    bool saving_ = false;             ///< first; then what waits
+    std::filesystem::path folder_;                 ///< of the file that was taken last
+    std::filesystem::path overwrite_;              ///< is there already; empty: nothing to ask
+    std::optional<std::filesystem::path> dropped_; ///< into the dialog, which it answers
+    std::function<void()> after_;                  ///< what waits for the answer about unsaved changes
+    bool saving_ = false;                          ///< first; then what waits
     std::vector<std::string> pictures_;
     bool quit_ = false;
 };

@@ -69,45 +69,11 @@ void draw_mark(ImDrawList& list, const GizmoMark& mark, bool hot) {
     }
 }
 
-std::optional<ImVec2> window_place(const OrbitCamera& camera, const Vec3& place) {
-    const ScreenPoint at = camera.project(place);
-    return at.visible() ? std::optional(ImVec2(static_cast<float>(at.x), static_cast<float>(at.y)))
-                        : std::nullopt;
-}
-
-void draw_way(ImDrawList& list, const OrbitCamera& camera, const std::vector<Vec3>& places) {
-    for (size_t i = 1; i < places.size(); ++i) {
-        const auto from = window_place(camera, places[i - 1]);
-        const auto to = window_place(camera, places[i]);
-        if (from && to) {
-            list.AddLine(*from, *to, outline, 4);
-            list.AddLine(*from, *to, way_colour, 2);
+void draw_way(Marks& marks, const std::vector<Vec3>& places) {
+    for (const auto& [colour, width] : {std::pair(outline, 4.0), std::pair(way_colour, 2.0)}) {
+        for (size_t i = 1; i < places.size(); ++i) {
+            marks.line(places[i - 1], places[i], width, colour);
         }
-    }
-}
-
-/// Of recorded hammers, and of handles whose path counts.
-void draw_ways(ImDrawList& list, const Session& session) {
-    for (const PickedHandle& handle : session.editor.handles()) {
-        std::vector<Vec3> places;
-        for (const Vec3& offset : handle.way) {
-            places.push_back(handle.place.position + offset);
-        }
-        draw_way(list, session.camera, places);
-    }
-    for (const auto& [name, poses] : session.occluders.samples()) {
-        const OccluderView* occluder = nullptr;
-        for (const OccluderView& view : session.shown().occluders) {
-            occluder = view.name == name ? &view : occluder;
-        }
-        if (occluder == nullptr) {
-            continue;
-        }
-        std::vector<Vec3> places;
-        for (const Transform& pose : poses) {
-            places.push_back(placed_point(pose, occluder->pivot));
-        }
-        draw_way(list, session.camera, places);
     }
 }
 
@@ -121,48 +87,61 @@ const LiveContact* contact_of(const Shown& shown) {
 
 } // namespace
 
-void draw_contact(const Session& session) {
+void draw_contact(const Session& session, Marks& marks) {
     const LiveContact* contact = contact_of(session.shown());
     if (contact == nullptr || !session.view.occluders) {
         return;
     }
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    const OrbitCamera& camera = session.camera;
     for (const auto& facet : contact->facets) {
-        const auto a = window_place(camera, facet[0]);
-        const auto b = window_place(camera, facet[1]);
-        const auto c = window_place(camera, facet[2]);
-        const bool faces_eye =
-            glm::dot(glm::cross(facet[1] - facet[0], facet[2] - facet[0]), facet[0] - camera.eye()) < 0;
-        if (a && b && c && faces_eye) {
-            list.AddTriangleFilled(*a, *b, *c, touching_colour);
+        const bool faces_eye = glm::dot(glm::cross(facet[1] - facet[0], facet[2] - facet[0]),
+                                        facet[0] - session.camera.eye()) < 0;
+        if (faces_eye) {
+            marks.facet(facet[0], facet[1], facet[2], touching_colour);
         }
     }
     for (const Vec3& mark : contact->marks) {
-        if (const auto at = window_place(camera, mark)) {
-            list.AddRectFilled({at->x - 1, at->y - 1}, {at->x + 1, at->y + 1}, touching_vertex);
-        }
+        marks.square(mark, 1, touching_vertex);
     }
-    if (contact->vertex) {
-        if (const auto at = window_place(camera, contact->vertex->position)) {
-            list.AddCircle(*at, 6, outline, 0, 4);
-            list.AddCircle(*at, 6, deepest_colour, 0, 2);
+    for (const auto& [colour, width] : {std::pair(outline, 4.0), std::pair(deepest_colour, 2.0)}) {
+        if (contact->vertex) {
+            marks.ring(contact->vertex->position, 6, width, colour);
         }
-    }
-    if (contact->triangle) {
-        if (const auto at = window_place(camera, contact->triangle->position)) {
-            list.AddNgon(*at, 8, outline, 3, 4);
-            list.AddNgon(*at, 8, deepest_colour, 3, 2);
+        if (contact->triangle) {
+            marks.triangle(contact->triangle->position, 8, width, colour);
         }
     }
 }
 
+/// Of recorded hammers, and of handles whose path counts.
+void draw_ways(const Session& session, Marks& marks) {
+    for (const PickedHandle& handle : session.editor.handles()) {
+        std::vector<Vec3> places;
+        for (const Vec3& offset : handle.way) {
+            places.push_back(handle.place.position + offset);
+        }
+        draw_way(marks, places);
+    }
+    for (const auto& [name, poses] : session.occluders.samples()) {
+        const OccluderView* occluder = nullptr;
+        for (const OccluderView& view : session.shown().occluders) {
+            occluder = view.name == name ? &view : occluder;
+        }
+        if (occluder == nullptr) {
+            continue;
+        }
+        std::vector<Vec3> places;
+        for (const Transform& pose : poses) {
+            places.push_back(placed_point(pose, occluder->pivot));
+        }
+        draw_way(marks, places);
+    }
+}
+
 void draw_gizmo(const Session& session) {
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    draw_ways(list, session);
     if (!session.view.occluders) {
         return;
     }
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
     for (const GizmoMark& mark : session.occluders.marks(session.camera, session.shown().occluders)) {
         draw_mark(list, mark, mark.part == session.occluders.hot());
     }

@@ -11,6 +11,9 @@ namespace {
 void file_menu(Session& session, FileDialogs& files) {
     if (ImGui::BeginMenu("File")) {
         const bool open = session.shown().mesh != nullptr;
+        if (ImGui::IsWindowAppearing()) {
+            session.look_for_recent();
+        }
         if (ImGui::MenuItem("Open mesh or recipe...", "Ctrl+O")) {
             files.ask_to_open();
         }

@@ -1,5 +1,7 @@
 #include "app/viewer/panels/mirror_controls.h"
 
+#include "app/viewer/panels/controls.h"
+
 #include <imgui.h>
 
 namespace anvil {
@@ -19,7 +21,7 @@ bool mirror_controls(std::optional<Mirror>& mirror, const Box& scene) {
         return changed;
     }
     auto origin = static_cast<float>(mirror->origin);
-    ImGui::PushItemWidth(110);
+    ImGui::PushItemWidth(110 * unit());
     if (ImGui::DragFloat("at", &origin, static_cast<float>(scene.diagonal()) * 1e-3F, 0, 0, "%.4g")) {
         mirror->origin = origin;
         changed = true;

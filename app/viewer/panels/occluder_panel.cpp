@@ -95,14 +95,9 @@ void OccluderPanel::show_settings(Session& session, size_t index) {
 void OccluderPanel::show_one(Session& session, size_t index) {
     const std::string name = session.shown().document.recipe->occluders[index].name;
     ImGui::PushID(static_cast<int>(index));
-    bool on = !session.options.off.contains(name);
+    bool on = !session.shown().document.off.contains(name);
     if (ImGui::Checkbox("##on", &on)) {
-        if (on) {
-            session.options.off.erase(name);
-        } else {
-            session.options.off.insert(name);
-        }
-        session.options_changed();
+        session.switch_occluder(name, on);
     }
     if (ImGui::IsItemHovered()) {
         ImGui::SetTooltip("on: the edit under way and the next ones go around it");
@@ -130,7 +125,7 @@ void OccluderPanel::show(Session& session, PanelColumn& column) {
         return;
     }
     column.begin("Occluders");
-    ImGui::PushItemWidth(-110);
+    ImGui::PushItemWidth(-110 * unit());
     add(session);
     const size_t count = session.shown().document.recipe->occluders.size();
     if (count > 0) {

@@ -19,101 +19,81 @@ constexpr ImU32 pin_colour = IM_COL32(230, 90, 160, 255);
 constexpr ImU32 hover_colour = IM_COL32(255, 255, 255, 190);
 constexpr float apart_pixels = 3; ///< target and handle closer than this are one mark
 
-class Marks {
-  public:
-    explicit Marks(const OrbitCamera& camera) : camera_(camera), list_(*ImGui::GetBackgroundDrawList()) {}
+constexpr double rim = 1.5; ///< of the outline, pixels
 
-    void disc(const Vec3& place, float radius, ImU32 colour) {
-        if (const auto at = window_place(place)) {
-            list_.AddCircleFilled(*at, radius + 1.5F, outline);
-            list_.AddCircleFilled(*at, radius, colour);
-        }
+void draw_disc(Marks& marks, const Vec3& place, double radius, ImU32 colour) {
+    marks.disc(place, radius + rim, outline);
+    marks.disc(place, radius, colour);
+}
+
+void draw_ring(Marks& marks, const Vec3& place, double radius, ImU32 colour) {
+    marks.ring(place, radius, 4, outline);
+    marks.ring(place, radius, 2, colour);
+}
+
+void draw_square(Marks& marks, const Vec3& place, double half, ImU32 colour) {
+    marks.square(place, half + rim, outline);
+    marks.square(place, half, colour);
+}
+
+void draw_line(Marks& marks, const Vec3& a, const Vec3& b, ImU32 colour) {
+    marks.line(a, b, 3.5, outline);
+    marks.line(a, b, 1.5, colour);
+}
+
+bool apart(const OrbitCamera& camera, const Vec3& a, const Vec3& b) {
+    const ScreenPoint p = camera.project(a);
+    const ScreenPoint q = camera.project(b);
+    return std::hypot(p.x - q.x, p.y - q.y) > apart_pixels;
+}
+
+void draw_hover(const SurfaceHit& hit, Marks& marks) {
+    const OrbitCamera& camera = marks.camera();
+    const double tip = 14 * camera.pixel_size(camera.project(hit.position).depth) * camera.unit;
+    draw_line(marks, hit.position, hit.position + tip * hit.normal, hover_colour);
+    draw_ring(marks, hit.position, 5, hover_colour);
+}
+
+/// `end`: where the handle is.
+void draw_handle(const PickedHandle& handle, const Vec3& target, const Vec3& end, bool active, Marks& marks) {
+    for (const PickedPlace& anchor : handle.anchors) {
+        draw_square(marks, anchor.position, 4, anchor_colour);
     }
-
-    void ring(const Vec3& place, float radius, ImU32 colour) {
-        if (const auto at = window_place(place)) {
-            list_.AddCircle(*at, radius, outline, 0, 4);
-            list_.AddCircle(*at, radius, colour, 0, 2);
-        }
+    if (apart(marks.camera(), handle.place.position, target)) {
+        draw_line(marks, handle.place.position, target, handle_colour);
+        draw_disc(marks, handle.place.position, 2.5, handle_colour);
     }
-
-    void square(const Vec3& place, float half, ImU32 colour) {
-        if (const auto at = window_place(place)) {
-            const ImVec2 low(at->x - half, at->y - half);
-            const ImVec2 high(at->x + half, at->y + half);
-            list_.AddRectFilled(ImVec2(low.x - 1.5F, low.y - 1.5F), ImVec2(high.x + 1.5F, high.y + 1.5F),
-                                outline);
-            list_.AddRectFilled(low, high, colour);
-        }
+    if (apart(marks.camera(), end, target)) { // an occluder keeps it from where it is wanted
+        draw_line(marks, end, target, target_colour);
+        draw_ring(marks, target, 7, target_colour);
     }
-
-    void line(const Vec3& a, const Vec3& b, ImU32 colour, float width) {
-        const auto from = window_place(a);
-        const auto to = window_place(b);
-        if (from && to) {
-            list_.AddLine(*from, *to, outline, width + 2);
-            list_.AddLine(*from, *to, colour, width);
-        }
-    }
-
-    bool apart(const Vec3& a, const Vec3& b) const {
-        const ScreenPoint p = camera_.project(a);
-        const ScreenPoint q = camera_.project(b);
-        return std::hypot(p.x - q.x, p.y - q.y) > apart_pixels;
-    }
-
-  private:
-    std::optional<ImVec2> window_place(const Vec3& place) const {
-        const ScreenPoint at = camera_.project(place);
-        if (!at.visible()) {
-            return std::nullopt;
-        }
-        return ImVec2(static_cast<float>(at.x), static_cast<float>(at.y));
-    }
-
-    const OrbitCamera& camera_;
-    ImDrawList& list_;
-};
+    draw_disc(marks, end, active ? 6.5 : 5.0, handle_colour);
+}
 
 } // namespace
 
-void draw_overlay(const Session& session) {
-    draw_contact(session);
+void draw_overlay(const Session& session, Marks& marks) {
+    draw_contact(session, marks);
     const Editor& editor = session.editor;
-    Marks marks(session.camera);
     if (editor.hover() && !editor.dragging()) {
-        const SurfaceHit& hit = *editor.hover();
-        const double tip = 14 * session.camera.pixel_size(session.camera.project(hit.position).depth);
-        marks.line(hit.position, hit.position + tip * hit.normal, hover_colour, 1.5F);
-        marks.ring(hit.position, 5, hover_colour);
+        draw_hover(*editor.hover(), marks);
     }
     const std::optional<DragView>& drag = session.shown().drag;
     for (size_t i = 0; i < editor.handles().size(); ++i) {
         const PickedHandle& handle = editor.handles()[i];
         const Vec3 target = editor.target(handle);
         const bool known = drag && i < drag->ends.size();
-        const Vec3 end = known ? drag->ends[i] : target;
-        for (const PickedPlace& anchor : handle.anchors) {
-            marks.square(anchor.position, 4, anchor_colour);
-        }
-        if (marks.apart(handle.place.position, target)) {
-            marks.line(handle.place.position, target, handle_colour, 1.5F);
-            marks.disc(handle.place.position, 2.5F, handle_colour);
-        }
-        if (marks.apart(end, target)) { // an occluder keeps it from where it is wanted
-            marks.line(end, target, target_colour, 1.5F);
-            marks.ring(target, 7, target_colour);
-        }
-        marks.disc(end, i == editor.active() ? 6.5F : 5.0F, handle_colour);
+        draw_handle(handle, target, known ? drag->ends[i] : target, i == editor.active(), marks);
     }
-    draw_selection_marks(session);
-    draw_line_marks(session);
+    draw_selection_marks(session, marks);
+    draw_line_marks(session, marks);
     for (size_t i = editor.handles().size(); drag && i < drag->ends.size(); ++i) {
-        marks.disc(drag->ends[i], 3.5F, mirrored_colour); // of the other side
+        draw_disc(marks, drag->ends[i], 3.5, mirrored_colour); // of the other side
     }
     for (const PickedPlace& pin : editor.pins()) {
-        marks.square(pin.position, 4, pin_colour);
+        draw_square(marks, pin.position, 4, pin_colour);
     }
+    draw_ways(session, marks);
     draw_gizmo(session);
 }
 

@@ -10,8 +10,12 @@ class PanelColumn {
     explicit PanelColumn(Side side);
 
     /// Begins a panel as high as what it holds, at most `share` of the room that is left: then it scrolls.
-    void begin(const char* title, float share = 1);
+    /// `open`, if given: it can be closed.
+    void begin(const char* title, float share = 1, bool* open = nullptr);
     void end();
+
+    /// Whether the window is large enough for columns at both sides and a view between them.
+    static bool has_room();
 
   private:
     float left_ = 0;

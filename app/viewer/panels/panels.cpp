@@ -8,14 +8,14 @@ namespace anvil {
 
 void Panels::show(Session& session, const FrameTimes& times) {
     show_menu(session, files);
-    if (session.view.panels) {
-        PanelColumn left(PanelColumn::Side::left);
+    PanelColumn left(PanelColumn::Side::left);
+    if (session.view.panels && PanelColumn::has_room()) {
         edits_.show(session, left);
         PanelColumn right(PanelColumn::Side::right);
         edit_.show(session, right);
         occluders_.show(session, right);
     }
-    show_facts(session, session.view.facts);
+    show_facts(session, left, session.view.facts);
     show_status(session, times);
     show_notices(session);
     files.show(session);

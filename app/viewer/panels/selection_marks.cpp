@@ -24,25 +24,19 @@ void draw_outline(const std::vector<Cursor>& points, ImDrawList& list) {
     }
 }
 
-void draw_pins(const std::vector<PickedPlace>& pins, const OrbitCamera& camera, ImDrawList& list) {
+void draw_pins(const std::vector<PickedPlace>& pins, Marks& marks) {
     const size_t step = std::max<size_t>(1, (pins.size() + most_pins - 1) / most_pins);
     for (size_t i = 0; i < pins.size(); i += step) {
-        const ScreenPoint place = camera.project(pins[i].position);
-        if (place.visible()) {
-            const auto x = static_cast<float>(place.x);
-            const auto y = static_cast<float>(place.y);
-            list.AddRectFilled(ImVec2(x - 3, y - 3), ImVec2(x + 3, y + 3), outline);
-            list.AddRectFilled(ImVec2(x - 2, y - 2), ImVec2(x + 2, y + 2), pin_colour);
-        }
+        marks.square(pins[i].position, 3, outline);
+        marks.square(pins[i].position, 2, pin_colour);
     }
 }
 
 } // namespace
 
-void draw_selection_marks(const Session& session) {
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    draw_pins(session.editor.lasting_pins(), session.camera, list);
-    draw_outline(session.select.outline(), list);
+void draw_selection_marks(const Session& session, Marks& marks) {
+    draw_pins(session.editor.lasting_pins(), marks);
+    draw_outline(session.select.outline(), *ImGui::GetBackgroundDrawList());
 }
 
 } // namespace anvil

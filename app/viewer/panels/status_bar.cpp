@@ -1,7 +1,10 @@
 #include "app/viewer/panels/status_bar.h"
 
+#include "app/viewer/panels/controls.h"
+#include "app/viewer/panels/panel_column.h"
 #include "engine/core/number_text.h"
 
+#include <algorithm>
 #include <imgui.h>
 
 namespace anvil {
@@ -11,11 +14,33 @@ namespace {
 const ImVec4 error_colour(1.0F, 0.55F, 0.45F, 1);
 const ImVec4 warning_colour(1.0F, 0.85F, 0.5F, 1);
 
+constexpr size_t longest_name = 40; ///< of a file, in characters
+
+/// A name of at most so many characters: its middle is left out. UTF-8.
+std::string shortened(const std::string& name) {
+    std::vector<size_t> begins;
+    for (size_t i = 0; i < name.size(); ++i) {
+        if ((static_cast<unsigned char>(name[i]) & 0xC0U) != 0x80U) {
+            begins.push_back(i);
+        }
+    }
+    if (begins.size() <= longest_name) {
+        return name;
+    }
+    constexpr size_t tail = longest_name / 2;
+    return name.substr(0, begins[longest_name - tail - 3]) + "..." +
+           name.substr(begins[begins.size() - tail]);
+}
+
 } // namespace
+
+float status_height() {
+    return 2 * ImGui::GetTextLineHeightWithSpacing() + 8 * unit();
+}
 
 void show_status(Session& session, const FrameTimes& times) {
     const ImVec2 window = ImGui::GetIO().DisplaySize;
-    const float height = 2 * ImGui::GetTextLineHeightWithSpacing() + 8;
+    const float height = status_height();
     ImGui::SetNextWindowPos(ImVec2(0, window.y - height));
     ImGui::SetNextWindowSize(ImVec2(window.x, height));
     ImGui::Begin("status", nullptr,
@@ -27,8 +52,8 @@ void show_status(Session& session, const FrameTimes& times) {
     if (shown.mesh) {
         const SurfaceVersion& surface = *shown.document.surface;
         const Vec3 extent = session.bounds().high - session.bounds().low;
-        line = shown.mesh_file.filename().string() + (shown.document.unsaved ? " (unsaved)" : "") + "   " +
-               std::to_string(surface.mesh->vertex_count()) + " vertices, " +
+        line = shortened(shown.mesh_file.filename().string()) + (shown.document.unsaved ? " (unsaved)" : "") +
+               "   " + std::to_string(surface.mesh->vertex_count()) + " vertices, " +
                std::to_string(surface.mesh->polygon_count()) + " faces   " + rounded_text(extent.x) + " x " +
                rounded_text(extent.y) + " x " + rounded_text(extent.z);
         if (shown.look->selected_count > 0) {
@@ -51,9 +76,9 @@ void show_status(Session& session, const FrameTimes& times) {
     ImGui::TextUnformatted(line.c_str());
     const WorkerState work = session.work();
     if (!work.job.empty() && work.seconds > 0.3) {
-        ImGui::SameLine(window.x - 330);
+        ImGui::SameLine(std::max(window.x - 330 * unit(), 0.0F));
         const std::string text = work.job + (work.stage.empty() ? "" : ": " + work.stage);
-        ImGui::ProgressBar(static_cast<float>(work.fraction), ImVec2(240, 0), text.c_str());
+        ImGui::ProgressBar(static_cast<float>(work.fraction), ImVec2(240 * unit(), 0), text.c_str());
         ImGui::SameLine();
         if (ImGui::SmallButton("Cancel")) {
             session.cancel_work();
@@ -67,13 +92,18 @@ void show_notices(Session& session) {
         return;
     }
     const ImVec2 window = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos(ImVec2(8, window.y - 60), ImGuiCond_Always, ImVec2(0, 1));
-    ImGui::SetNextWindowSizeConstraints(ImVec2(300, 0), ImVec2(window.x * 0.7F, window.y * 0.5F));
+    const float space = 8 * unit();
+    // Between the columns, above the status bar.
+    const float left = (PanelColumn::has_room() ? side_width() + space : 0) + space;
+    const float width = window.x - 2 * left;
+    const float bottom = window.y - status_height() - space;
+    ImGui::SetNextWindowPos(ImVec2(left, bottom), ImGuiCond_Always, ImVec2(0, 1));
+    ImGui::SetNextWindowSizeConstraints(ImVec2(std::min(300 * unit(), width), 0), ImVec2(width, bottom / 2));
     bool open = true;
     ImGui::Begin("Messages", &open,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoFocusOnAppearing);
-    ImGui::PushTextWrapPos(window.x * 0.65F);
+    ImGui::PushTextWrapPos(width - 2 * space);
     for (const Notice& notice : session.notices()) {
         ImGui::PushStyleColor(ImGuiCol_Text, notice.is_error ? error_colour : warning_colour);
         ImGui::TextUnformatted(notice.text.c_str());

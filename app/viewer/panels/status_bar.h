@@ -10,6 +10,8 @@ struct FrameTimes {
     double milliseconds = 0;
 };
 
+/// Pixels at the window's foot.
+float status_height();
 void show_status(Session& session, const FrameTimes& times);
 void show_notices(Session& session);
 
