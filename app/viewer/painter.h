@@ -40,6 +40,9 @@ class Painter {
     /// @throws DeviceError
     Painted paint(const Scene& scene, const Cover& cover, bool fine, bool kept, FrameLog& log);
 
+    /// For scripts: as if the window's surface were lost.
+    void lose_surface() { swapchain_.lose_surface(); }
+
     /// The last frame that was kept. @throws DeviceError; InternalError before the first
     Picture picture();
 

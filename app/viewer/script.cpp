@@ -32,7 +32,8 @@ constexpr std::array words{
     Word{"up", 1, 1},       Word{"light", 1, 1},   Word{"mirror", 1, 2},  Word{"edges", 1, 1},
     Word{"flat", 1, 1},     Word{"select", 1, 1},  Word{"motion", 1, 1},  Word{"dilation", 1, 3},
     Word{"hammer", 1, 1},   Word{"frames", 1, 1},  Word{"found", 1, 1},   Word{"lose", 1, 1},
-    Word{"edit", 2, 9},     Word{"path", 1, 1},    Word{"curve", 2, 2},
+    Word{"edit", 2, 9},     Word{"path", 1, 1},    Word{"curve", 2, 2},   Word{"drop", 1, 9},
+    Word{"minimize", 1, 1},
 };
 
 std::vector<std::string> split(const std::string& line) {

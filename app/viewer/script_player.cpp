@@ -111,6 +111,11 @@ bool ScriptPlayer::play(const ScriptLine& line, Session& session, Window& window
             event.character = static_cast<unsigned char>(c);
             events_.push_back(event);
         }
+    } else if (line.word == "drop") {
+        InputEvent event;
+        event.kind = InputEvent::Kind::drop;
+        event.files = with;
+        events_.push_back(event);
     } else if (line.word == "scroll") {
         InputEvent event;
         event.kind = InputEvent::Kind::scroll;
@@ -130,6 +135,8 @@ void ScriptPlayer::act(const ScriptLine& line, Session& session, Window& window,
     }
     if (line.word == "window") {
         window.resize({static_cast<int>(script_number(with[0])), static_cast<int>(script_number(with[1]))});
+    } else if (line.word == "minimize") {
+        window.minimize(with[0] == "on");
     } else if (line.word == "open") {
         session.open(with[0]);
     } else if (line.word == "recover") {
@@ -174,10 +181,10 @@ void ScriptPlayer::act(const ScriptLine& line, Session& session, Window& window,
     } else if (line.word == "lose") {
         if (with[0] == "computing") {
             session.lose_computing();
-        } else if (with[0] == "drawing") {
-            loses_ = true;
+        } else if (with[0] == "drawing" || with[0] == "surface") {
+            loses_ = with[0] == "drawing" ? Loss::drawing : Loss::surface;
         } else {
-            throw InputError("write: lose computing, or lose drawing");
+            throw InputError("write: lose computing, lose drawing or lose surface");
         }
     } else if (line.word == "frames") {
         std::cout << with[0] << ": " << frames.report() << std::endl;

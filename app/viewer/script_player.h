@@ -11,6 +11,9 @@
 
 namespace anvil {
 
+/// What a script takes from the window, as if it failed.
+enum class Loss : uint8_t { none, drawing, surface };
+
 class ScriptPlayer {
   public:
     /// @throws InputError as read_script()
@@ -22,8 +25,8 @@ class ScriptPlayer {
     /// Files to write the frame to that is drawn now.
     std::vector<std::string> take_pictures() { return std::exchange(pictures_, {}); }
     bool wants_picture() const { return !pictures_.empty(); }
-    /// The device that draws is to fail now.
-    bool take_loss() { return std::exchange(loses_, false); }
+    /// What is to fail now.
+    Loss take_loss() { return std::exchange(loses_, Loss::none); }
     /// A person would go on at once: nobody looks at this frame for long.
     bool busy() const { return !events_.empty() || (!waiting_ && pictures_.empty() && !done()); }
     /// Waits for the session or the clock, not for the next frame.
@@ -49,7 +52,7 @@ class ScriptPlayer {
     double y_ = 0;
     bool waiting_ = false;
     int settled_frames_ = 0;
-    bool loses_ = false;
+    Loss loses_ = Loss::none;
     std::chrono::steady_clock::time_point awake_at_{};
     std::vector<std::string> pictures_;
 };

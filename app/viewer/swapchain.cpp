@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 namespace anvil {
 
@@ -115,13 +116,16 @@ std::optional<WindowImage> Swapchain::acquire() {
             if (wanted.empty()) {
                 return std::nullopt;
             }
-            if (outdated_ || wanted != size_) {
-                make_images();
-                if (outdated_) {
-                    return std::nullopt;
-                }
-            }
             try {
+                if (std::exchange(lost_, false)) {
+                    throw vk::SurfaceLostKHRError("the window's surface");
+                }
+                if (outdated_ || wanted != size_) {
+                    make_images();
+                    if (outdated_) {
+                        return std::nullopt;
+                    }
+                }
                 const auto [result, index] = chain_.acquireNextImage(patience, *acquired_);
                 if (result == vk::Result::eSuccess || result == vk::Result::eSuboptimalKHR) {
                     outdated_ = result == vk::Result::eSuboptimalKHR;
@@ -154,7 +158,7 @@ void Swapchain::show(const WindowImage& image) {
         } catch (const vk::OutOfDateKHRError&) {
             outdated_ = true;
         } catch (const vk::SurfaceLostKHRError&) {
-            outdated_ = true; // the next acquire() makes a new surface
+            lost_ = true; // the next acquire() makes a new one
         }
     });
 }

@@ -32,6 +32,9 @@ class Swapchain {
     vk::Semaphore drawn(const WindowImage& image) const { return *drawn_[image.index]; }
     void show(const WindowImage& image);
 
+    /// The next acquire() finds the surface lost.
+    void lose_surface() { lost_ = true; }
+
     vk::Format format() const { return format_; }
     WindowSize size() const { return size_; }
 
@@ -51,6 +54,7 @@ class Swapchain {
     vk::Format format_ = vk::Format::eUndefined;
     WindowSize size_;
     bool outdated_ = true;
+    bool lost_ = false; ///< the surface
 };
 
 } // namespace anvil

@@ -109,9 +109,7 @@ class Viewer {
             panels_.show(session_, times_);
         }
         ImGui::Render();
-        if (player_ != nullptr && player_->take_loss()) {
-            throw DeviceError("the device that draws was lost");
-        }
+        lose_what_is_wanted();
         // The CPU draws several samples a pixel only once all is at rest, and of a million triangles never:
         // that takes it seconds.
         const bool many = session_.shown().look->coarse != nullptr;
@@ -134,6 +132,17 @@ class Viewer {
         if (!player_ && unattended() && session_.settled() && !session_.shown().mesh) {
             throw InputError(session_.notices().empty() ? "a screenshot wants a mesh or a recipe, or a script"
                                                         : session_.notices().back().text);
+        }
+    }
+
+    /// For scripts.
+    void lose_what_is_wanted() {
+        const Loss loss = player_ != nullptr ? player_->take_loss() : Loss::none;
+        if (loss == Loss::drawing) {
+            throw DeviceError("the device that draws was lost");
+        }
+        if (loss == Loss::surface) {
+            painter_.lose_surface();
         }
     }
 

@@ -162,7 +162,7 @@ void Window::wake() {
 WindowSize Window::framebuffer_size() const {
     WindowSize size;
     glfwGetFramebufferSize(window_, &size.width, &size.height);
-    return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE ? WindowSize{} : size;
+    return away_ || glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE ? WindowSize{} : size;
 }
 
 double Window::scale() const {
@@ -174,6 +174,11 @@ double Window::scale() const {
 
 void Window::resize(WindowSize size) {
     glfwSetWindowSize(window_, size.width, size.height);
+}
+
+void Window::minimize(bool away) {
+    away_ = away;
+    away ? glfwIconifyWindow(window_) : glfwRestoreWindow(window_);
 }
 
 void Window::set_title(const std::string& title) {

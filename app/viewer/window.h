@@ -52,6 +52,8 @@ class Window {
     WindowSize framebuffer_size() const; ///< pixels; empty while minimized
     double scale() const;                ///< of the display: 1 at 96 dots an inch
     void resize(WindowSize size);
+    /// Or shows it again. Where no window manager does it, it is at least as if.
+    void minimize(bool away);
     void set_title(const std::string& title);
     std::string clipboard() const;
     void set_clipboard(const std::string& text);
@@ -61,6 +63,7 @@ class Window {
     GLFWwindow* window_ = nullptr;
     std::vector<InputEvent> events_;
     Modifiers modifiers_;
+    bool away_ = false; ///< minimize() says so
 };
 
 /// A key's number by its name in scripts and help: "a", "F5", "escape", "left"; 0 if there is none.

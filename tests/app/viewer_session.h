@@ -19,6 +19,11 @@ class ViewerSession {
     ProgramRun play(const std::string& script, const std::string& device,
                     const std::string& opens = "") const;
 
+    /// Plays the script, which makes so many edits of the mesh, undoes all and redoes all, and forges the
+    /// recipe that it saves: a test failure where the meshes are not the same, bit for bit.
+    void check_history(const std::string& script, const std::string& mesh, int edits,
+                       const std::string& device) const;
+
   private:
     ScratchFolder folder_;
 };

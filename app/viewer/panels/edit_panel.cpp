@@ -11,6 +11,7 @@ namespace anvil {
 
 void EditPanel::show(Session& session, PanelColumn& column) {
     column.begin("Edit", 0.65F);
+    ImGui::PushItemWidth(-80 * unit());
     Editor& editor = session.editor;
     constexpr std::array<std::pair<const char*, Tool>, 6> tools{{{"Move", Tool::move},
                                                                  {"Turn", Tool::turn},
@@ -53,6 +54,7 @@ void EditPanel::show(Session& session, PanelColumn& column) {
             session.drop();
         }
     }
+    ImGui::PopItemWidth();
     column.end();
 }
 

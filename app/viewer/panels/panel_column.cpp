@@ -1,7 +1,6 @@
 #include "app/viewer/panels/panel_column.h"
 
 #include "app/viewer/panels/controls.h"
-#include "app/viewer/panels/status_bar.h"
 
 #include <algorithm>
 #include <imgui.h>
@@ -16,12 +15,12 @@ constexpr float least_view = 40;
 
 } // namespace
 
-PanelColumn::PanelColumn(Side side) {
+PanelColumn::PanelColumn(Side side, float foot) {
     const ImVec2 window = ImGui::GetIO().DisplaySize;
     const float space = margin * unit();
     left_ = side == Side::left ? space : window.x - side_width() - space;
     top_ = ImGui::GetFrameHeight() + space; // below the menus
-    bottom_ = window.y - status_height() - space;
+    bottom_ = window.y - foot - space;
 }
 
 bool PanelColumn::has_room() {

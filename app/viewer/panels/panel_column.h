@@ -6,8 +6,8 @@ namespace anvil {
 class PanelColumn {
   public:
     enum class Side { left, right };
-    /// Empty; for one frame.
-    explicit PanelColumn(Side side);
+    /// Empty, above the window's `foot`, so many pixels high; for one frame.
+    PanelColumn(Side side, float foot);
 
     /// Begins a panel as high as what it holds, at most `share` of the room that is left: then it scrolls.
     /// `open`, if given: it can be closed.

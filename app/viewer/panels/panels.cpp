@@ -8,16 +8,17 @@ namespace anvil {
 
 void Panels::show(Session& session, const FrameTimes& times) {
     show_menu(session, files);
-    PanelColumn left(PanelColumn::Side::left);
+    const float foot = status_height(session, times);
+    PanelColumn left(PanelColumn::Side::left, foot);
     if (session.view.panels && PanelColumn::has_room()) {
         edits_.show(session, left);
-        PanelColumn right(PanelColumn::Side::right);
+        PanelColumn right(PanelColumn::Side::right, foot);
         edit_.show(session, right);
         occluders_.show(session, right);
     }
     show_facts(session, left, session.view.facts);
     show_status(session, times);
-    show_notices(session);
+    show_notices(session, foot);
     files.show(session);
     show_key_help(session.view.help);
 }

@@ -32,21 +32,8 @@ std::string shortened(const std::string& name) {
            name.substr(begins[begins.size() - tail]);
 }
 
-} // namespace
-
-float status_height() {
-    return 2 * ImGui::GetTextLineHeightWithSpacing() + 8 * unit();
-}
-
-void show_status(Session& session, const FrameTimes& times) {
-    const ImVec2 window = ImGui::GetIO().DisplaySize;
-    const float height = status_height();
-    ImGui::SetNextWindowPos(ImVec2(0, window.y - height));
-    ImGui::SetNextWindowSize(ImVec2(window.x, height));
-    ImGui::Begin("status", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoFocusOnAppearing);
-    ImGui::TextUnformatted(session.hint().c_str());
+/// Of what is open, and of the last frames.
+std::string facts_line(Session& session, const FrameTimes& times) {
     const Shown& shown = session.shown();
     std::string line = "nothing is open: File, Open, or drop a file here";
     if (shown.mesh) {
@@ -71,9 +58,34 @@ void show_status(Session& session, const FrameTimes& times) {
                     rounded_text(std::round(shown.drag->milliseconds * 10) / 10) + " ms";
         }
     }
-    line +=
-        "   " + shown.device + "   " + rounded_text(std::round(times.milliseconds * 10) / 10) + " ms a frame";
-    ImGui::TextUnformatted(line.c_str());
+    return line + "   " + shown.device + "   " + rounded_text(std::round(times.milliseconds * 10) / 10) +
+           " ms a frame";
+}
+
+float lines_height(const std::string& text) {
+    const float width = ImGui::GetIO().DisplaySize.x - 2 * ImGui::GetStyle().WindowPadding.x;
+    return ImGui::CalcTextSize(text.c_str(), nullptr, false, std::max(width, 1.0F)).y;
+}
+
+} // namespace
+
+float status_height(Session& session, const FrameTimes& times) {
+    const float most = ImGui::GetIO().DisplaySize.y / 3;
+    const float text = lines_height(session.hint()) + lines_height(facts_line(session, times));
+    return std::max(std::min(text, most), 2 * ImGui::GetTextLineHeight()) + ImGui::GetStyle().ItemSpacing.y +
+           2 * ImGui::GetStyle().WindowPadding.y;
+}
+
+void show_status(Session& session, const FrameTimes& times) {
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    const float height = status_height(session, times);
+    ImGui::SetNextWindowPos(ImVec2(0, window.y - height));
+    ImGui::SetNextWindowSize(ImVec2(window.x, height));
+    ImGui::Begin("status", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::TextWrapped("%s", session.hint().c_str());
+    ImGui::TextWrapped("%s", facts_line(session, times).c_str());
     const WorkerState work = session.work();
     if (!work.job.empty() && work.seconds > 0.3) {
         ImGui::SameLine(std::max(window.x - 330 * unit(), 0.0F));
@@ -87,7 +99,7 @@ void show_status(Session& session, const FrameTimes& times) {
     ImGui::End();
 }
 
-void show_notices(Session& session) {
+void show_notices(Session& session, float foot) {
     if (session.notices().empty()) {
         return;
     }
@@ -96,7 +108,7 @@ void show_notices(Session& session) {
     // Between the columns, above the status bar.
     const float left = (PanelColumn::has_room() ? side_width() + space : 0) + space;
     const float width = window.x - 2 * left;
-    const float bottom = window.y - status_height() - space;
+    const float bottom = window.y - foot - space;
     ImGui::SetNextWindowPos(ImVec2(left, bottom), ImGuiCond_Always, ImVec2(0, 1));
     ImGui::SetNextWindowSizeConstraints(ImVec2(std::min(300 * unit(), width), 0), ImVec2(width, bottom / 2));
     bool open = true;

@@ -10,9 +10,10 @@ struct FrameTimes {
     double milliseconds = 0;
 };
 
-/// Pixels at the window's foot.
-float status_height();
+/// Pixels at the window's foot: what there is to say in two lines, more where the window is narrow.
+float status_height(Session& session, const FrameTimes& times);
 void show_status(Session& session, const FrameTimes& times);
-void show_notices(Session& session);
+/// Above the `foot`, so many pixels high.
+void show_notices(Session& session, float foot);
 
 } // namespace anvil

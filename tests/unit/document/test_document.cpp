@@ -273,3 +273,47 @@ TEST_CASE("another back end makes all surfaces anew, and none is mixed from two"
     document->redo(s.work);
     CHECK(document->surface()->positions == first);
 }
+
+TEST_CASE(
+    "an occluder that is switched off is one step that is undone and redone, and no edit or file sees it") {
+    Session s;
+    const auto document = s.open();
+    Recipe recipe = document->recipe();
+    for (const Recipe& next : s.story(recipe)) {
+        document->change(next, "Step", s.work);
+    }
+    document->save_recipe(s.folder / "story.json");
+    const std::vector<Vec3> before = document->surface()->positions;
+    recipe = document->recipe();
+    using Names = std::set<std::string>;
+
+    document->switch_off({"ball", "unknown"}, "Switch");
+    CHECK(document->state().off == Names{"ball"});
+    CHECK(document->state().undo == "Switch");
+    CHECK_FALSE(document->unsaved());
+    CHECK(document->recipe() == recipe);
+    CHECK(document->surface()->positions == before);
+
+    document->switch_off({"ball"}, "Again"); // it is off: no step
+    CHECK(document->state().undo == "Switch");
+    recipe.edits.push_back(pull(Vec3(0, 0, 1), 0.1));
+    document->change(recipe, "Pull", s.work);
+    CHECK(document->state().off == Names{"ball"}); // what comes after keeps it
+    document->undo(s.work);
+    document->undo(s.work);
+    CHECK(document->state().off.empty());
+    CHECK(document->state().redo == "Switch");
+    CHECK(document->surface()->positions == before);
+    document->redo(s.work);
+    CHECK(document->state().off == Names{"ball"});
+
+    recipe = document->recipe();
+    recipe.occluders[0].name = "other";
+    for (Edit& edit : recipe.edits) {
+        edit.occluders = std::vector<OccluderUse>{};
+    }
+    document->change(recipe, "Rename", s.work);
+    CHECK(document->state().off.empty()); // another one of the name would not be off
+    document->undo(s.work);
+    CHECK(document->state().off == Names{"ball"});
+}
