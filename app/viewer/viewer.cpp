@@ -1,6 +1,7 @@
 #include "app/viewer/viewer.h"
 
 #include "app/backend_choice.h"
+#include "app/viewer/event_queue.h"
 #include "app/viewer/painter.h"
 #include "app/viewer/panels/overlay.h"
 #include "app/viewer/panels/panels.h"
@@ -185,10 +186,12 @@ class Viewer {
             const std::vector<InputEvent> played = player_->next(session_, window_, log_);
             events.insert(events.end(), played.begin(), played.end());
         }
-        for (const InputEvent& event : events) {
+        events_.add(events);
+        for (const InputEvent& event : events_.take_frame()) {
             handle(event);
         }
-        const bool changed = !events.empty() || Ui::active() || shown_ != &session_.shown();
+        const bool changed =
+            !events.empty() || !events_.empty() || Ui::active() || shown_ != &session_.shown();
         shown_ = &session_.shown();
         frames_due_ = changed ? frames_after_event : std::max(frames_due_ - 1, 0);
         if (changed || !session_.settled()) {
@@ -258,6 +261,7 @@ class Viewer {
     FrameLog log_;
     Clock::time_point last_frame_ = Clock::now();
     Clock::time_point last_change_ = Clock::now();
+    EventQueue events_;
     int frames_due_ = frames_after_event;
     int painted_settled_ = 0;
     const Shown* shown_ = nullptr; ///< when events were taken last

@@ -73,31 +73,44 @@ void FileBrowser::show_folders_above() {
     }
 }
 
+/// Whether it was double-clicked.
+bool FileBrowser::show_entry(size_t index) {
+    const FolderEntry& entry = listing_.entries[index];
+    bool taken = false;
+    ImGui::TableNextColumn();
+    ImGui::PushID(static_cast<int>(index));
+    const std::string label = entry.name + (entry.is_folder ? "/" : "");
+    if (ImGui::Selectable(label.c_str(), index == chosen_,
+                          ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_SpanAllColumns)) {
+        choose(index);
+        scrolls_ = false;
+        taken = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+    }
+    if (index == chosen_ && scrolls_) {
+        ImGui::SetScrollHereY();
+        scrolls_ = false;
+    }
+    ImGui::TableNextColumn();
+    if (!entry.is_folder) {
+        ImGui::TextDisabled("%s", file_size_text(entry.bytes).c_str());
+    }
+    ImGui::PopID();
+    return taken;
+}
+
 /// Whether an entry was double-clicked.
 bool FileBrowser::show_entries() {
     bool taken = false;
-    ImGui::BeginChild("entries",
-                      ImVec2(0, std::clamp(ImGui::GetIO().DisplaySize.y - beside_list * unit(),
-                                           least_list * unit(), list_height * unit())),
+    const float height = ImGui::GetIO().DisplaySize.y - beside_list * unit();
+    ImGui::BeginChild("entries", ImVec2(0, std::clamp(height, least_list * unit(), list_height * unit())),
                       true);
-    for (size_t i = 0; i < listing_.entries.size(); ++i) {
-        const FolderEntry& entry = listing_.entries[i];
-        ImGui::PushID(static_cast<int>(i));
-        const std::string label = entry.name + (entry.is_folder ? "/" : "");
-        if (ImGui::Selectable(label.c_str(), i == chosen_, ImGuiSelectableFlags_AllowDoubleClick)) {
-            choose(i);
-            scrolls_ = false;
-            taken = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+    if (ImGui::BeginTable("entries", 2)) {
+        ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+        ImGui::TableSetupColumn("size", ImGuiTableColumnFlags_WidthFixed, 60 * unit());
+        for (size_t i = 0; i < listing_.entries.size(); ++i) {
+            taken = show_entry(i) || taken;
         }
-        if (i == chosen_ && scrolls_) {
-            ImGui::SetScrollHereY();
-            scrolls_ = false;
-        }
-        if (!entry.is_folder) {
-            ImGui::SameLine(ImGui::GetContentRegionMax().x - 70 * unit());
-            ImGui::TextDisabled("%s", file_size_text(entry.bytes).c_str());
-        }
-        ImGui::PopID();
+        ImGui::EndTable();
     }
     if (!listing_.complaint.empty()) {
         ImGui::TextWrapped("%s", listing_.complaint.c_str());

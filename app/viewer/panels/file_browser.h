@@ -23,6 +23,7 @@ class FileBrowser {
     void go_to(const std::filesystem::path& folder);
     void choose(size_t entry);
     void show_folders_above();
+    bool show_entry(size_t index);
     bool show_entries();
     bool show_name();
     void follow_keys();
