@@ -174,12 +174,12 @@ class ClosestPointSearch {
         }
     }
 
-    /// What a leaf must not be beyond, for four parts of a group; see the formula above.
-    struct Horizon {
-        Float4 radius;
-        Float4 distance;
-        std::array<Float4, 3> towards;
-        Float4 curve;
+    /// What a leaf must not be beyond, for the parts of a group; see the formula above.
+    struct alignas(lane_alignment) Horizons {
+        LaneFloats radius;
+        LaneFloats distance;
+        std::array<LaneFloats, 3> towards;
+        LaneFloats curve;
     };
 
     /// What of a list may be nearest to each of the parts' boxes.
@@ -187,10 +187,10 @@ class ClosestPointSearch {
 
     /// By the point nearest to the centre of what is in the leaf of the nearest box: not the nearest of all,
     /// but near that.
-    void set_horizon(Horizon& horizon, size_t lane, const Box& part, const NearLeaf& leaf) const;
+    void set_horizon(Horizons& horizons, size_t lane, const Box& part, const NearLeaf& leaf) const;
 
     /// Bits of the parts for which a leaf holds nothing. What is not a number puts it beyond nothing.
-    unsigned beyond(const Horizon& horizon, const NearLeaf& leaf, const LeafView& view, size_t quad) const;
+    unsigned beyond(const Horizons& horizons, const NearLeaf& leaf, const LeafView& view) const;
 
     /// What is in the nearest box bounds the search in the others.
     void decide(Group group, const List& list);
@@ -237,8 +237,8 @@ class ClosestPointSearch {
     std::vector<NearLeaf> leaves_;
     List whole_; ///< of all of them
     LeafViews views_;
-    LaneFloats limits_{};     ///< of squared distances, of the queries being decided
-    LaneFloats box_limits_{}; ///< and to boxes: (root of the limit + blur_)^2
+    alignas(lane_alignment) LaneFloats limits_{};     ///< of squared distances, of the queries being decided
+    alignas(lane_alignment) LaneFloats box_limits_{}; ///< and to boxes: (root of the limit + blur_)^2
     std::vector<Measured> measured_;
     std::deque<std::array<List, lanes>> lists_; ///< of the parts, by depth
 };

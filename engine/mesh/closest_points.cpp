@@ -91,25 +91,22 @@ ANVIL_FOR_PROCESSOR void ClosestPointSearch::thin_out(const Parts& parts, const 
         centres.set(i, local(parts.box[i].centre()));
     }
     const std::array<uint32_t, lanes> nearest = views_.look<true>(leaves_, list, centres);
-    std::array<Horizon, quads> horizons{};
+    Horizons horizons{};
     for (size_t i = 0; i < parts.count; ++i) {
-        set_horizon(horizons[i / 4], i % 4, parts.box[i], leaves_[list[nearest[i]]]);
+        set_horizon(horizons, i, parts.box[i], leaves_[list[nearest[i]]]);
     }
     for (List& part : kept_lists) {
         part.clear();
     }
     for (size_t k = 0; k < list.size(); ++k) {
-        unsigned out = 0;
-        for (size_t quad = 0; quad < quads; ++quad) {
-            out |= beyond(horizons[quad], leaves_[list[k]], views_[k], quad) << (4 * quad);
-        }
+        const unsigned out = beyond(horizons, leaves_[list[k]], views_[k]);
         for (unsigned kept = ~out & ((1U << parts.count) - 1); kept != 0; kept &= kept - 1) {
             kept_lists[static_cast<size_t>(std::countr_zero(kept))].push_back(list[k]);
         }
     }
 }
 
-void ClosestPointSearch::set_horizon(Horizon& horizon, size_t lane, const Box& part,
+void ClosestPointSearch::set_horizon(Horizons& horizons, size_t lane, const Box& part,
                                      const NearLeaf& leaf) const {
     const Vec3 centre = part.centre();
     const SearchTree::SquaredBounds squared = tree_.squared_distances(tree_.leaves_[leaf.index], centre);
@@ -120,26 +117,28 @@ void ClosestPointSearch::set_horizon(Horizon& horizon, size_t lane, const Box& p
     const ClosestPoint point = on_slot(centre, first_slot(leaf) + best);
     const double radius = 0.5 * part.diagonal();
     const Vec3 towards = (point.position - centre) / point.distance;
-    horizon.radius[lane] = static_cast<float>(tree_.scale_ * radius);
-    horizon.distance[lane] = static_cast<float>(tree_.scale_ * point.distance);
-    horizon.curve[lane] = static_cast<float>(tree_.scale_ * farther_than_plane(radius, point.distance));
+    horizons.radius[lane] = static_cast<float>(tree_.scale_ * radius);
+    horizons.distance[lane] = static_cast<float>(tree_.scale_ * point.distance);
+    horizons.curve[lane] = static_cast<float>(tree_.scale_ * farther_than_plane(radius, point.distance));
     for (int axis = 0; axis < 3; ++axis) {
-        horizon.towards[axis][lane] = static_cast<float>(towards[axis]);
+        horizons.towards[axis][lane] = static_cast<float>(towards[axis]);
     }
 }
 
-unsigned ClosestPointSearch::beyond(const Horizon& horizon, const NearLeaf& leaf, const LeafView& view,
-                                    size_t quad) const {
-    const Float4 distance = square_root(view.squared[quad]);
-    const Float4 farther = distance - horizon.distance - blur_;
-    const auto& [x, y, z] = horizon.towards;
-    Float4 along{};
+unsigned ClosestPointSearch::beyond(const Horizons& horizons, const NearLeaf& leaf,
+                                    const LeafView& view) const {
+    LaneFloats distance = view.squared;
+    take_root(distance);
+    const LaneFloats farther = distance - horizons.distance - blur_;
+    const auto& [x, y, z] = horizons.towards;
+    LaneFloats along{};
     for (int axis = 0; axis < 3; ++axis) {
         const glm::vec3& a = leaf.axes[axis];
-        along += view.arm[axis][quad] * (a.x * x + a.y * y + a.z * z);
+        along += view.arm[axis] * (a.x * x + a.y * y + a.z * z);
     }
-    const Float4 apart = square_root(2 - 2 * along / distance + rounded_float);
-    return signs((farther > 2 * horizon.radius) | (farther > horizon.radius * apart + horizon.curve));
+    LaneFloats apart = 2 - 2 * along / distance + rounded_float;
+    take_root(apart);
+    return signs((farther > 2 * horizons.radius) | (farther > horizons.radius * apart + horizons.curve));
 }
 
 ANVIL_FOR_PROCESSOR void ClosestPointSearch::decide(Group group, const List& list) {
@@ -149,7 +148,7 @@ ANVIL_FOR_PROCESSOR void ClosestPointSearch::decide(Group group, const List& lis
     }
     const std::array<uint32_t, lanes> nearest = views_.look<false>(leaves_, list, points);
     measured_.clear();
-    limits_.fill(four(largest_float));
+    fill(limits_, largest_float);
     box_limits_ = limits_;
     for (size_t i = 0; i < group.size(); ++i) {
         lower(i, measure(i, leaves_[list[nearest[i]]], queries_[group[i]], largest_float));
@@ -159,12 +158,12 @@ ANVIL_FOR_PROCESSOR void ClosestPointSearch::decide(Group group, const List& lis
         for (unsigned near = not_above(views_[k].squared, box_limits_) & used; near != 0; near &= near - 1) {
             const auto i = static_cast<size_t>(std::countr_zero(near));
             if (k != nearest[i]) {
-                lower(i, measure(i, leaves_[list[k]], queries_[group[i]], limits_[i / 4][i % 4]));
+                lower(i, measure(i, leaves_[list[k]], queries_[group[i]], limits_[i]));
             }
         }
     }
     for (const auto& [lane, low, leaf] : measured_) {
-        const unsigned lowest = signs(~(low > limits_[lane / 4][lane % 4]));
+        const unsigned lowest = signs(~(low > limits_[lane]));
         for (unsigned near = lowest & ((1U << count_of(*leaf)) - 1); near != 0; near &= near - 1) {
             offer(group[lane], first_slot(*leaf) + static_cast<uint32_t>(std::countr_zero(near)));
         }
@@ -172,18 +171,14 @@ ANVIL_FOR_PROCESSOR void ClosestPointSearch::decide(Group group, const List& lis
 }
 
 void ClosestPointSearch::lower(size_t lane, float limit) {
-    if (limit < limits_[lane / 4][lane % 4]) {
-        limits_[lane / 4][lane % 4] = limit;
-        box_limits_[lane / 4][lane % 4] = limit + blur_ * (2 * std::sqrt(limit) + blur_);
+    if (limit < limits_[lane]) {
+        limits_[lane] = limit;
+        box_limits_[lane] = limit + blur_ * (2 * std::sqrt(limit) + blur_);
     }
 }
 
 unsigned ClosestPointSearch::not_above(const LaneFloats& values, const LaneFloats& limits) {
-    unsigned bits = 0;
-    for (size_t quad = 0; quad < quads; ++quad) {
-        bits |= signs(~(values[quad] > limits[quad])) << (4 * quad);
-    }
-    return bits;
+    return signs(~(values > limits));
 }
 
 float ClosestPointSearch::measure(size_t lane, const NearLeaf& leaf, const Vec3& query, float limit) {

@@ -19,19 +19,38 @@
 namespace anvil {
 
 inline constexpr size_t lanes = 8;
-inline constexpr size_t quads = lanes / 4;
 inline constexpr float largest_float = std::numeric_limits<float>::max();
 
-/// One number of each lane, a lane for one query or one part of a group.
-using LaneFloats = std::array<Float4, quads>;
+/// One number of each lane, a lane for one query or one part of a group. Not returned by value, and what
+/// holds them says how it is aligned: with and without AVX compilers do these differently.
+using LaneFloats = float __attribute__((vector_size(4 * lanes)));
+using LaneInts = int __attribute__((vector_size(4 * lanes)));
+
+inline constexpr size_t lane_alignment = 4 * lanes;
+
+inline void fill(LaneFloats& all, float x) {
+    all = LaneFloats{} + x;
+}
+
+inline void take_root(LaneFloats& x) {
+    const Float4 low = square_root(__builtin_shufflevector(x, x, 0, 1, 2, 3));
+    const Float4 high = square_root(__builtin_shufflevector(x, x, 4, 5, 6, 7));
+    x = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+/// Bit i: whether number i is negative.
+inline unsigned signs(const LaneInts& x) {
+    return signs(__builtin_shufflevector(x, x, 0, 1, 2, 3)) | signs(__builtin_shufflevector(x, x, 4, 5, 6, 7))
+                                                                  << 4;
+}
 
 /// From the centre of a group of queries, in units of the mesh's diagonal.
-struct LanePoints {
+struct alignas(lane_alignment) LanePoints {
     std::array<LaneFloats, 3> at{};
 
     void set(size_t lane, const Vec3& p) {
         for (int axis = 0; axis < 3; ++axis) {
-            at[axis][lane / 4][lane % 4] = static_cast<float>(p[axis]);
+            at[axis][lane] = static_cast<float>(p[axis]);
         }
     }
 };
@@ -45,7 +64,7 @@ struct NearLeaf {
 };
 
 /// A leaf's box as seen from the lanes' points.
-struct LeafView {
+struct alignas(lane_alignment) LeafView {
     LaneFloats squared;            ///< distance
     std::array<LaneFloats, 3> arm; ///< to the nearest point, along the box's axes; only where asked for
 };
@@ -60,21 +79,17 @@ class LeafViews {
                                      const LanePoints& p) {
         views_.resize(list.size());
         LaneFloats lowest;
-        lowest.fill(four(largest_float));
-        std::array<Int4, quads> nearest{};
+        fill(lowest, largest_float);
+        LaneInts nearest{};
         for (size_t i = 0; i < list.size(); ++i) {
-            const NearLeaf& leaf = leaves[list[i]];
-            const int k = static_cast<int>(i);
-            for (size_t quad = 0; quad < quads; ++quad) {
-                const Float4 squared = look_from<Arms>(views_[i], leaf, p, quad);
-                const auto nearer = squared < lowest[quad];
-                lowest[quad] = nearer ? squared : lowest[quad];
-                nearest[quad] = nearer ? Int4{k, k, k, k} : nearest[quad];
-            }
+            look_at<Arms>(views_[i], leaves[list[i]], p);
+            const auto nearer = views_[i].squared < lowest;
+            lowest = nearer ? views_[i].squared : lowest;
+            nearest = nearer ? LaneInts{} + static_cast<int>(i) : nearest;
         }
         std::array<uint32_t, lanes> result;
         for (size_t lane = 0; lane < lanes; ++lane) {
-            result[lane] = static_cast<uint32_t>(nearest[lane / 4][lane % 4]);
+            result[lane] = static_cast<uint32_t>(nearest[lane]);
         }
         return result;
     }
@@ -84,22 +99,23 @@ class LeafViews {
 
   private:
     template <bool Arms>
-    static Float4 look_from(LeafView& view, const NearLeaf& leaf, const LanePoints& p, size_t quad) {
-        const Float4 x = p.at[0][quad] - leaf.centre.x;
-        const Float4 y = p.at[1][quad] - leaf.centre.y;
-        const Float4 z = p.at[2][quad] - leaf.centre.z;
-        Float4 squared{};
+    static void look_at(LeafView& view, const NearLeaf& leaf, const LanePoints& p) {
+        const LaneFloats x = p.at[0] - leaf.centre.x;
+        const LaneFloats y = p.at[1] - leaf.centre.y;
+        const LaneFloats z = p.at[2] - leaf.centre.z;
+        LaneFloats squared{};
         for (int axis = 0; axis < 3; ++axis) {
-            const Float4 at = leaf.axes[axis].x * x + leaf.axes[axis].y * y + leaf.axes[axis].z * z;
-            const float half = leaf.half[axis];
-            const Float4 arm = most(-half - at, least(half - at, Float4{}));
+            const LaneFloats at = leaf.axes[axis].x * x + leaf.axes[axis].y * y + leaf.axes[axis].z * z;
+            const LaneFloats above = leaf.half[axis] - at;
+            const LaneFloats below = -leaf.half[axis] - at;
+            const LaneFloats down = above < 0 ? above : LaneFloats{};
+            const LaneFloats arm = below > down ? below : down;
             if constexpr (Arms) {
-                view.arm[axis][quad] = arm;
+                view.arm[axis] = arm;
             }
             squared += arm * arm;
         }
-        view.squared[quad] = squared;
-        return squared;
+        view.squared = squared;
     }
 
     std::vector<LeafView> views_;
