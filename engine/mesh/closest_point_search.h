@@ -221,26 +221,26 @@ class ClosestPointSearch {
         const NearLeaf* leaf;
     };
 
+    alignas(lane_alignment) LaneFloats limits_{};     ///< of squared distances, of the queries being decided
+    alignas(lane_alignment) LaneFloats box_limits_{}; ///< and to boxes: (root of the limit + blur_)^2
     const SearchTree& tree_;
     std::span<const Vec3> queries_;
     std::span<ClosestPoint> found_;
     std::vector<uint32_t> order_;
     ClosestPoint last_;
     Vec3 last_query_{0};
-    bool entered_ = false; ///< what is gathered is good for entered_box_
     Box entered_box_;
     std::array<List, lanes> entered_lists_; ///< of its octants
 
     Vec3 centre_{0};
-    float blur_ = 0;             ///< what floats take off distances to boxes
     std::vector<uint32_t> near_; ///< leaves of the tree
     std::vector<NearLeaf> leaves_;
     List whole_; ///< of all of them
     LeafViews views_;
-    alignas(lane_alignment) LaneFloats limits_{};     ///< of squared distances, of the queries being decided
-    alignas(lane_alignment) LaneFloats box_limits_{}; ///< and to boxes: (root of the limit + blur_)^2
     std::vector<Measured> measured_;
     std::deque<std::array<List, lanes>> lists_; ///< of the parts, by depth
+    float blur_ = 0;                            ///< what floats take off distances to boxes
+    bool entered_ = false;                      ///< what is gathered is good for entered_box_
 };
 
 } // namespace anvil
