@@ -160,7 +160,8 @@ ScreenPoint OrbitCamera::project(const Vec3& point) const {
     if (!(pixel > 0)) {
         return {0, 0, depth};
     }
-    return {width_ / 2 + v.x / pixel, height_ / 2 - v.y / pixel, orthographic ? std::max(depth, 1e-30) : depth};
+    return {width_ / 2 + v.x / pixel, height_ / 2 - v.y / pixel,
+            orthographic ? std::max(depth, 1e-30) : depth};
 }
 
 glm::mat4 OrbitCamera::view(const Vec3& origin) const {

@@ -74,7 +74,7 @@ struct CurveEditor::Slopes {
     }
 
     bool under_mouse(size_t side) const {
-        return has[side] && apart(ImGui::GetIO().MousePos, ends[side]) < grab_pixels;
+        return has[side] && apart(ImGui::GetIO().MousePos, ends[side]) < grab_pixels * unit();
     }
 };
 
@@ -96,17 +96,18 @@ void CurveEditor::draw(const Canvas& canvas, const ShapeChoice& shape, const Slo
     for (size_t side = 0; side < 2; ++side) {
         if (slopes.has[side]) {
             list.AddLine(canvas.place(shape.knots[selected_]), slopes.ends[side], slope_colour);
-            list.AddCircleFilled(slopes.ends[side], 3.5F, slope_colour);
+            list.AddCircleFilled(slopes.ends[side], 3.5F * unit(), slope_colour);
         }
     }
     for (size_t i = 0; i < shape.knots.size(); ++i) {
-        list.AddCircleFilled(canvas.place(shape.knots[i]), i == selected_ ? 5.0F : 4.0F, knot_colour);
+        list.AddCircleFilled(canvas.place(shape.knots[i]), (i == selected_ ? 5.0F : 4.0F) * unit(),
+                             knot_colour);
     }
 }
 
 std::optional<size_t> CurveEditor::knot_under_mouse(const Canvas& canvas, const ShapeChoice& shape) const {
     for (size_t i = 0; i < shape.knots.size(); ++i) {
-        if (apart(ImGui::GetIO().MousePos, canvas.place(shape.knots[i])) < grab_pixels) {
+        if (apart(ImGui::GetIO().MousePos, canvas.place(shape.knots[i])) < grab_pixels * unit()) {
             return i;
         }
     }

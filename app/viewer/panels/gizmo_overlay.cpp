@@ -47,7 +47,7 @@ void draw_tip(ImDrawList& list, const ImVec2& a, const ImVec2& b, ImU32 colour) 
     list.AddTriangleFilled({tip.x, tip.y}, {left.x, left.y}, {right.x, right.y}, colour);
 }
 
-void draw_mark(ImDrawList& list, const GizmoMark& mark, bool hot) {
+void draw_mark(ImDrawList& list, const GizmoMark& mark, bool hot, float unit) {
     std::vector<ImVec2> line;
     for (const glm::dvec2& place : mark.line) {
         line.push_back(narrow(place));
@@ -59,11 +59,11 @@ void draw_mark(ImDrawList& list, const GizmoMark& mark, bool hot) {
     const ImU32 colour = hot ? hot_colour : colour_of(mark.part);
     if (mark.filled) {
         list.AddConvexPolyFilled(line.data(), count, with_alpha(colour, 150));
-        list.AddPolyline(line.data(), count, colour, ImDrawFlags_Closed, 1.5F);
+        list.AddPolyline(line.data(), count, colour, ImDrawFlags_Closed, 1.5F * unit);
         return;
     }
-    list.AddPolyline(line.data(), count, outline, 0, hot ? 5.5F : 4.0F);
-    list.AddPolyline(line.data(), count, colour, 0, hot ? 3.5F : 2.0F);
+    list.AddPolyline(line.data(), count, outline, 0, (hot ? 5.5F : 4.0F) * unit);
+    list.AddPolyline(line.data(), count, colour, 0, (hot ? 3.5F : 2.0F) * unit);
     if (mark.part.action == GizmoAction::move) {
         draw_tip(list, line.front(), line.back(), colour);
     }
@@ -143,7 +143,7 @@ void draw_gizmo(const Session& session) {
     }
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     for (const GizmoMark& mark : session.occluders.marks(session.camera, session.shown().occluders)) {
-        draw_mark(list, mark, mark.part == session.occluders.hot());
+        draw_mark(list, mark, mark.part == session.occluders.hot(), static_cast<float>(session.camera.unit));
     }
 }
 
