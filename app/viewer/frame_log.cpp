@@ -21,9 +21,9 @@ constexpr std::array<const char*, static_cast<size_t>(FramePart::count)> part_na
 constexpr std::array<const char*, static_cast<size_t>(FrameKind::count)> kind_names{
     "panels alone", "whole surface", "parts of the surface"};
 
-double processor_seconds() {
+double processor_seconds(clockid_t clock) {
     std::timespec now{};
-    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    ::clock_gettime(clock, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
@@ -48,11 +48,14 @@ void FrameLog::enter(FramePart part, Clock::time_point now) {
 
 void FrameLog::frame(Clock::time_point now) {
     const bool first = entered_ == Clock::time_point{};
+    const double own = processor_seconds(CLOCK_THREAD_CPUTIME_ID);
     enter(FramePart::events, now);
     if (!first) {
+        current_.own = 1000 * (own - own_seconds_);
         frames_.push_back(current_);
     }
     current_ = {};
+    own_seconds_ = own;
 }
 
 std::string FrameLog::parts_of(const Frame& frame) {
@@ -77,11 +80,12 @@ std::string FrameLog::describe(std::vector<Frame> frames) {
         return tenths(frames[(frames.size() - 1) * percent / 100].milliseconds());
     };
     return std::to_string(frames.size()) + " frames, median " + at(50) + " ms, 95 % " + at(95) +
-           " ms, longest " + at(100) + " ms (" + parts_of(frames.back()) + ")";
+           " ms, longest " + at(100) + " ms (" + parts_of(frames.back()) + "; own processor time " +
+           tenths(frames.back().own) + ")";
 }
 
 std::string FrameLog::report() {
-    const double processor = processor_seconds();
+    const double processor = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
     std::string text = std::to_string(frames_.size()) + " frames";
     if (!frames_.empty()) {
         text += ", processor " +

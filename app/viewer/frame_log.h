@@ -42,13 +42,15 @@ class FrameLog {
 
     /// What happened since the last report: how many frames, and the processor time of all threads a frame;
     /// then for each kind of frame, a line each, how many, the middle one, that which 95 % are no longer
-    /// than, and the longest, which is how long the window stood still at most, with what it was at.
+    /// than, and the longest, which is how long the window stood still at most, with what it was at, and the
+    /// processor time of the window's thread alone: the rest it waited, or others had its processor.
     std::string report();
 
   private:
     struct Frame {
         FrameKind kind = FrameKind::panels;
         std::array<double, static_cast<size_t>(FramePart::count)> parts{}; ///< milliseconds
+        double own = 0; ///< milliseconds of processor time of the thread
 
         double milliseconds() const;
     };
@@ -60,6 +62,7 @@ class FrameLog {
     Frame current_;
     FramePart part_ = FramePart::idle;
     Clock::time_point entered_{};  ///< the part; none: no frame has begun
+    double own_seconds_ = 0;       ///< processor time of the thread, when the frame began
     double processor_seconds_ = 0; ///< of the process, at the last report
 };
 

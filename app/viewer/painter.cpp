@@ -32,9 +32,9 @@ vk::SemaphoreSubmitInfo at_all_stages(vk::Semaphore semaphore) {
 
 } // namespace
 
-Painter::Painter(Device& device, const Window& window)
+Painter::Painter(Device& device, const Window& window, Disposer& disposer)
     : device_(device.state()), swapchain_(device_, window), marks_(device_, swapchain_.format()),
-      ui_(device_, swapchain_.format()), picture_(device_, swapchain_.format(), draws_on_cpu()),
+      ui_(device_, swapchain_.format()), picture_(device_, swapchain_.format(), draws_on_cpu(), disposer),
       commands_(device_) {}
 
 Painter::~Painter() {

@@ -21,8 +21,9 @@ enum class Painted : uint8_t {
 
 class Painter {
   public:
-    /// Takes the current ImGui context's fonts. @throws DeviceError
-    Painter(Device& device, const Window& window);
+    /// Takes the current ImGui context's fonts; `disposer` gets the scenes that are no longer shown.
+    /// @throws DeviceError
+    Painter(Device& device, const Window& window, Disposer& disposer);
     ~Painter();
 
     /// Draws one of each kind of thing where nobody sees it: drivers compile shaders only when they are used

@@ -26,11 +26,18 @@ bool ScenePicture::Sight::serves(const Scene& wanted, const PictureWish& wish) c
     return drawn && drawn->size == wish.size && (fine || !wish.fine) && scene == wanted;
 }
 
-ScenePicture::ScenePicture(DeviceState& device, vk::Format window, bool in_parts)
+ScenePicture::ScenePicture(DeviceState& device, vk::Format window, bool in_parts, Disposer& disposer)
     : device_(device),
       // Drawn in linear light; the window's image takes the same bytes as they are.
       format_(window == vk::Format::eB8G8R8A8Unorm ? vk::Format::eB8G8R8A8Srgb : vk::Format::eR8G8B8A8Srgb),
-      in_parts_(in_parts) {}
+      in_parts_(in_parts), disposer_(disposer) {}
+
+void ScenePicture::drop(Sight& sight) {
+    if (sight.scene) {
+        disposer_.take_value(std::move(*sight.scene));
+    }
+    sight = {};
+}
 
 ScenePicture::Canvas& ScenePicture::canvas(bool fine) {
     std::optional<Canvas>& canvas = fine ? fine_ : plain_;
@@ -65,7 +72,7 @@ bool ScenePicture::gives_way(const Scene& scene, const PictureWish& wish) {
 }
 
 void ScenePicture::begin(const Scene& scene, const PictureWish& wish) {
-    growing_ = {};
+    drop(growing_);
     Canvas& drawn_to = canvas(wish.fine);
     drawn_to.pass.prepare(scene);
     growing_ = {scene, wish.fine, unused(drawn_to, wish.size)};
@@ -77,7 +84,7 @@ FrameKind ScenePicture::prepare(const Scene& scene, const PictureWish& wish) {
     complete_ = shown_.serves(scene, wish);
     draws_ = !complete_;
     if (complete_) {
-        growing_ = {};
+        drop(growing_);
         return FrameKind::panels;
     }
     if (!growing_.drawn || (!growing_.serves(scene, wish) && gives_way(scene, wish))) {
@@ -85,7 +92,8 @@ FrameKind ScenePicture::prepare(const Scene& scene, const PictureWish& wish) {
     }
     const bool at_once = wish.whole || !in_parts_ || !shown_.drawn; // nothing else could be shown meanwhile
     const uint64_t part = at_once ? full_size_ : canvas(growing_.fine).part_size.next();
-    part_end_ = std::min(full_size_, grown_ + part);
+    // A little more at once costs less than a part of its own.
+    part_end_ = full_size_ - grown_ <= part + part / 2 ? full_size_ : grown_ + part;
     const bool last = part_end_ == full_size_;
     complete_ = last && growing_.serves(scene, wish);
     return last && grown_ == 0 ? FrameKind::whole_surface : FrameKind::part_of_surface;
@@ -101,6 +109,7 @@ void ScenePicture::record(const vk::raii::CommandBuffer& commands) {
     canvas(growing_.fine).pass.record(commands, *growing_.scene, grown_, part_end_);
     target.end(commands, last);
     if (last) {
+        drop(shown_);
         shown_ = std::exchange(growing_, {});
     }
 }

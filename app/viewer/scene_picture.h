@@ -1,6 +1,7 @@
 // The picture of a scene, over which the panels are drawn.
 #pragma once
 
+#include "app/viewer/disposer.h"
 #include "app/viewer/frame_log.h"
 #include "app/viewer/part_size.h"
 #include "app/viewer/scene_pass.h"
@@ -29,8 +30,8 @@ struct PictureWish {
 class ScenePicture {
   public:
     /// `window`: the format whose bytes are taken as they are. `in_parts`: scenes that take long may grow;
-    /// else all are drawn at once.
-    ScenePicture(DeviceState& device, vk::Format window, bool in_parts);
+    /// else all are drawn at once. `disposer` gets the scenes that are no longer shown.
+    ScenePicture(DeviceState& device, vk::Format window, bool in_parts, Disposer& disposer);
 
     /// Says what is drawn now for this scene to be seen. What an earlier call recorded is done.
     /// @throws DeviceError
@@ -72,10 +73,12 @@ class ScenePicture {
     std::shared_ptr<Drawn> unused(Canvas& canvas, WindowSize size) const;
     bool gives_way(const Scene& scene, const PictureWish& wish);
     void begin(const Scene& scene, const PictureWish& wish);
+    void drop(Sight& sight);
 
     DeviceState& device_;
     vk::Format format_;
     bool in_parts_;
+    Disposer& disposer_;
     std::optional<Canvas> plain_;
     std::optional<Canvas> fine_;
     Sight shown_;

@@ -26,8 +26,9 @@ std::string text_of(const std::exception_ptr& error) {
 
 } // namespace
 
-Session::Session(std::shared_ptr<Device> device, const std::string& choice, std::function<void()> changed)
-    : device_(std::move(device)), bench_(std::make_unique<Workbench>(device_, choice)),
+Session::Session(std::shared_ptr<Device> device, const std::string& choice, Disposer& disposer,
+                 std::function<void()> changed)
+    : device_(std::move(device)), disposer_(disposer), bench_(std::make_unique<Workbench>(device_, choice)),
       mirror_plane_(device_->state()),
       shown_(bench_->shown()), device_choices_{"cpu"}, drivers_{"double precision"}, health_(changed),
       recent_files_(user_state_folder()), recent_(recent_files_.list()) {
@@ -144,7 +145,7 @@ void Session::update() {
 }
 
 void Session::take_up() {
-    const std::shared_ptr<const Shown> before = std::exchange(shown_, bench_->shown());
+    std::shared_ptr<const Shown> before = std::exchange(shown_, bench_->shown());
     if (shown_->document.off != before->document.off) {
         options_changed();
     }
@@ -153,6 +154,7 @@ void Session::take_up() {
         line.surface_changed(shown_->pick.get());
         asked_for_.clear();
     }
+    disposer_.take(std::move(before));
     for (std::string& warning : bench_->take_warnings()) {
         notices_.push_back({false, std::move(warning)});
     }
@@ -168,7 +170,7 @@ void Session::take_up() {
         notices_.erase(notices_.begin(), notices_.end() - most_notices);
     }
     if (shown_->mesh && shown_->document.surface->file != examined_) {
-        examined_ = shown_->document.surface->file;
+        disposer_.take(std::exchange(examined_, shown_->document.surface->file));
         health_.start(examined_);
     }
     if (shown_->mesh && shown_->opening != opening_) {

@@ -1,6 +1,7 @@
 // The viewer without its window: what events, panels and scripts do, and what is to be drawn.
 #pragma once
 
+#include "app/viewer/disposer.h"
 #include "app/viewer/edit_options.h"
 #include "app/viewer/editor.h"
 #include "app/viewer/health_check.h"
@@ -54,8 +55,10 @@ struct MissingFile {
 
 class Session {
   public:
-    /// `changed` is called, from any thread, when there is something new to draw. @throws DeviceError
-    Session(std::shared_ptr<Device> device, const std::string& choice, std::function<void()> changed);
+    /// `changed` is called, from any thread, when there is something new to draw; `disposer` gets what is no
+    /// longer shown. @throws DeviceError
+    Session(std::shared_ptr<Device> device, const std::string& choice, Disposer& disposer,
+            std::function<void()> changed);
     ~Session();
 
     Editor editor;
@@ -166,6 +169,7 @@ class Session {
     void ask(const std::string& what, Worker::Job job, const std::string& replaces = "");
 
     std::shared_ptr<Device> device_;
+    Disposer& disposer_;
     std::unique_ptr<Workbench> bench_;
     MirrorPlane mirror_plane_;
     std::shared_ptr<const Shown> shown_;

@@ -48,8 +48,8 @@ class Viewer {
     Viewer(const Display& display, const ViewerOptions& options, ScriptPlayer* player,
            const std::shared_ptr<LostSession>& lost)
         : options_(options), window_(display, first_size, "Anvil"), device_(open_device()),
-          ui_(window_, window_.scale()), painter_(*device_, window_),
-          session_(device_, options.device, [] { Window::wake(); }) {
+          ui_(window_, window_.scale()), painter_(*device_, window_, disposer_),
+          session_(device_, options.device, disposer_, [] { Window::wake(); }) {
         session_.view.less_in_motion = painter_.draws_on_cpu();
         session_.camera.unit = window_.scale();
         player_ = player;
@@ -253,6 +253,7 @@ class Viewer {
     Window window_;
     std::shared_ptr<Device> device_;
     Ui ui_;
+    Disposer disposer_; ///< ends what is left of the painter and the session before the device goes
     Painter painter_;
     Session session_;
     Panels panels_;

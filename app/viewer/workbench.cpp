@@ -35,8 +35,9 @@ std::vector<std::string> Workbench::take_warnings() {
 }
 
 void Workbench::publish(const Shown& next) {
+    auto shown = std::make_shared<const Shown>(next); // the one before ends after the lock
     const std::lock_guard lock(mutex_);
-    shown_ = std::make_shared<const Shown>(next);
+    shown_.swap(shown);
     warnings_.insert(warnings_.end(), log_.warnings.begin(), log_.warnings.end());
     log_.warnings.clear();
 }
