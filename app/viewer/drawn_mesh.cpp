@@ -8,6 +8,8 @@ namespace anvil {
 
 namespace {
 
+constexpr double least_outside = 0.3; ///< of all triangles: to copy pictures takes time too
+
 std::vector<glm::vec3> relative(std::span<const Vec3> positions, const Vec3& origin) {
     std::vector<glm::vec3> narrow;
     narrow.reserve(positions.size());
@@ -62,6 +64,29 @@ DrawnIndices::DrawnIndices(DeviceState& device, const Mesh& mesh, std::span<cons
 
 DrawnIndices::DrawnIndices(DeviceState& device, std::span<const uint32_t> corners)
     : triangles(index_buffer(device, corners)), triangle_indices(static_cast<uint32_t>(corners.size())) {}
+
+SplitTriangles split_triangles(DeviceState& device, const Mesh& mesh, std::span<const Vec3> places,
+                               std::span<const uint32_t> vertices) {
+    std::vector<bool> in_region(mesh.vertex_count(), false);
+    for (const uint32_t v : vertices) {
+        in_region[v] = true;
+    }
+    const std::vector<uint32_t> all = anvil::triangle_indices(mesh, places);
+    std::vector<uint32_t> inside;
+    std::vector<uint32_t> outside;
+    for (size_t i = 0; i < all.size(); i += 3) {
+        const bool at_region = in_region[all[i]] || in_region[all[i + 1]] || in_region[all[i + 2]];
+        std::vector<uint32_t>& part = at_region ? inside : outside;
+        part.insert(part.end(), &all[i], &all[i] + 3);
+    }
+    if (static_cast<double>(outside.size()) < least_outside * static_cast<double>(all.size())) {
+        return {};
+    }
+    const auto indices = [&](const std::vector<uint32_t>& corners) {
+        return std::make_shared<const DrawnIndices>(device, std::span<const uint32_t>(corners));
+    };
+    return {indices(inside), indices(outside)};
+}
 
 DrawnMesh::DrawnMesh(DeviceState& device, const Mesh& mesh, std::span<const Vec3> places, const Vec3& centre,
                      bool editable)

@@ -28,6 +28,15 @@ struct DrawnIndices {
 
 struct DrawnRegion;
 
+/// The triangles of a mesh at any of these vertices (`inside`), and the others; nothing where too few are
+/// others for it to be worth it. O(mesh). @throws DeviceError
+struct SplitTriangles {
+    std::shared_ptr<const DrawnIndices> inside;
+    std::shared_ptr<const DrawnIndices> outside;
+};
+SplitTriangles split_triangles(DeviceState& device, const Mesh& mesh, std::span<const Vec3> places,
+                               std::span<const uint32_t> vertices);
+
 /// On the device: made once, then only drawn. From any thread.
 struct DrawnMesh {
     /// `places` (world) of the mesh's vertices; drawn relative to `centre`, and what is not finite with
@@ -54,9 +63,11 @@ struct RegionMark {
 struct DrawnRegion {
     std::vector<uint32_t> vertices; ///< with normals: those that move first
     DeviceSurface surface;
-    std::shared_ptr<const Buffer> marks;       ///< of those that move
-    std::shared_ptr<const DeformSession> kept; ///< owns the surface's buffers, if that is on a device
-    Buffer ends;                               ///< they are ours, if it is not
+    std::shared_ptr<const Buffer> marks;         ///< of those that move
+    std::shared_ptr<const DeformSession> kept;   ///< owns the surface's buffers, if that is on a device
+    std::shared_ptr<const DrawnIndices> inside;  ///< the mesh's triangles at any of `vertices`
+    std::shared_ptr<const DrawnIndices> outside; ///< all others; both nullptr: not told apart
+    Buffer ends;                                 ///< they are ours, if it is not
     Buffer normals;
 };
 

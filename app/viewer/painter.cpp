@@ -68,7 +68,7 @@ void Painter::warm_up() {
     }
 }
 
-Painted Painter::paint(const Scene& scene, const Cover& cover, bool fine, bool kept, FrameLog& log) {
+Painted Painter::paint(const Scene& scene, const Cover& cover, const PaintWish& wish, FrameLog& log) {
     log.enter(FramePart::device);
     wait(); // what the last frame read may change now
     log.enter(FramePart::image);
@@ -77,10 +77,10 @@ Painted Painter::paint(const Scene& scene, const Cover& cover, bool fine, bool k
         return Painted::nothing;
     }
     log.enter(FramePart::preparing);
-    log.draws(picture_.prepare(scene, {swapchain_.size(), fine, kept}));
+    log.draws(picture_.prepare(scene, {swapchain_.size(), wish.fine, wish.kept, wish.steady}));
     log.enter(FramePart::recording);
     const vk::raii::CommandBuffer& commands = commands_.begin();
-    guarded("drawing", [&] { record(commands, *image, cover, kept); });
+    guarded("drawing", [&] { record(commands, *image, cover, wish.kept); });
     log.enter(FramePart::submitting);
     const auto start = Clock::now();
     commands_.submit(at_all_stages(swapchain_.acquired()), at_all_stages(swapchain_.drawn(*image)));

@@ -19,6 +19,12 @@ enum class Painted : uint8_t {
     all
 };
 
+struct PaintWish {
+    bool fine = false;   ///< several samples a pixel
+    bool kept = false;   ///< all of the scene, however long it takes, and for picture()
+    bool steady = false; ///< as PictureWish::steady
+};
+
 class Painter {
   public:
     /// Takes the current ImGui context's fonts; `disposer` gets the scenes that are no longer shown.
@@ -36,10 +42,9 @@ class Painter {
         const ImDrawData& panels;
     };
 
-    /// Draws and shows, with whatever of the scene is drawn so far; waits for the frame before. `fine`:
-    /// several samples a pixel. `kept`: all of the scene, however long it takes, and for picture().
+    /// Draws and shows, with whatever of the scene is drawn so far; waits for the frame before.
     /// @throws DeviceError
-    Painted paint(const Scene& scene, const Cover& cover, bool fine, bool kept, FrameLog& log);
+    Painted paint(const Scene& scene, const Cover& cover, const PaintWish& wish, FrameLog& log);
 
     /// For scripts: as if the window's surface were lost.
     void lose_surface() { swapchain_.lose_surface(); }

@@ -6,6 +6,7 @@
 #include <array>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -39,8 +40,19 @@ struct Scene {
     std::vector<SceneItem> items;
     glm::mat4 projection{1};
     bool orthographic = false;
+    bool over_picture = false; ///< no background: what it is drawn over is there
 
     bool operator==(const Scene&) const = default;
 };
+
+/// A scene in two: `base` can be kept while a drag moves a region, `rest` is drawn over its picture.
+struct SceneParts {
+    Scene base;
+    Scene rest;
+};
+
+/// Nothing where no region is told apart from the mesh around it (DrawnRegion::outside), or it has to be
+/// drawn in another way.
+std::optional<SceneParts> parts_of(const Scene& scene);
 
 } // namespace anvil

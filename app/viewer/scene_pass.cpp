@@ -184,7 +184,7 @@ void ScenePass::record(const vk::raii::CommandBuffer& commands, const Scene& sce
 
 void ScenePass::record(const vk::raii::CommandBuffer& commands, const Scene& scene, uint64_t first,
                        uint64_t last) const {
-    if (first == 0) {
+    if (first == 0 && !scene.over_picture) {
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *background_);
         commands.draw(3, 1, 0, 0);
     }

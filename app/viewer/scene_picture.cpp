@@ -54,7 +54,7 @@ ScenePicture::Canvas& ScenePicture::canvas(bool fine) {
 std::shared_ptr<ScenePicture::Drawn> ScenePicture::unused(Canvas& canvas, WindowSize size) const {
     std::erase_if(canvas.drawn, [&](const auto& drawn) { return drawn->size != size; });
     for (const std::shared_ptr<Drawn>& drawn : canvas.drawn) {
-        if (drawn != shown_.drawn) {
+        if (drawn != shown_.drawn && drawn != base_.drawn) {
             return drawn;
         }
     }
@@ -64,19 +64,52 @@ std::shared_ptr<ScenePicture::Drawn> ScenePicture::unused(Canvas& canvas, Window
               size}));
 }
 
+std::optional<SceneParts> ScenePicture::parts_for(const Scene& scene, const PictureWish& wish) const {
+    return in_parts_ && wish.steady && !wish.fine ? parts_of(scene) : std::nullopt;
+}
+
+/// Whether what grows is what this scene wants.
+bool ScenePicture::goes_on(const Scene& scene, const PictureWish& wish) const {
+    if (!grows_base_) {
+        return growing_.serves(scene, wish);
+    }
+    const std::optional<SceneParts> parts = wish.whole ? std::nullopt : parts_for(scene, wish);
+    return parts && growing_.serves(parts->base, wish);
+}
+
 /// Whether what grows is given up for this scene.
 bool ScenePicture::gives_way(const Scene& scene, const PictureWish& wish) {
-    return wish.whole || growing_.drawn->size != wish.size || (growing_.fine && !wish.fine) ||
-           growing_.scene == scene ||
-           canvas(wish.fine).pass.size(scene) <= canvas(wish.fine).part_size.next();
+    if (grows_base_ || wish.whole || growing_.drawn->size != wish.size || (growing_.fine && !wish.fine) ||
+        growing_.scene == scene) {
+        return true;
+    }
+    const std::optional<SceneParts> parts = parts_for(scene, wish);
+    const bool on_base = parts && base_.serves(parts->base, wish);
+    Canvas& drawn_to = canvas(wish.fine);
+    return drawn_to.pass.size(on_base ? parts->rest : scene) <= drawn_to.part_size.next();
 }
 
 void ScenePicture::begin(const Scene& scene, const PictureWish& wish) {
+    // While the base changes from step to step, none would ever be done.
+    base_pays_ = base_pays_ && !(growing_.drawn && grows_base_);
     drop(growing_);
+    rest_.reset();
+    std::optional<SceneParts> parts = parts_for(scene, wish);
+    const bool on_base = parts && base_.serves(parts->base, wish);
+    grows_base_ = parts && !on_base && base_pays_ && !wish.whole && shown_.drawn;
+    if (!on_base) {
+        drop(base_); // one surface is kept from being freed, not two
+    }
     Canvas& drawn_to = canvas(wish.fine);
-    drawn_to.pass.prepare(scene);
     growing_ = {scene, wish.fine, unused(drawn_to, wish.size)};
-    full_size_ = drawn_to.pass.size(scene);
+    if (grows_base_) {
+        growing_.scene = std::move(parts->base);
+    }
+    if (on_base) {
+        rest_ = std::move(parts->rest);
+    }
+    drawn_to.pass.prepare(drawn_now());
+    full_size_ = drawn_to.pass.size(drawn_now());
     grown_ = 0;
 }
 
@@ -87,7 +120,7 @@ FrameKind ScenePicture::prepare(const Scene& scene, const PictureWish& wish) {
         drop(growing_);
         return FrameKind::panels;
     }
-    if (!growing_.drawn || (!growing_.serves(scene, wish) && gives_way(scene, wish))) {
+    if (!growing_.drawn || (!goes_on(scene, wish) && gives_way(scene, wish))) {
         begin(scene, wish);
     }
     const bool at_once = wish.whole || !in_parts_ || !shown_.drawn; // nothing else could be shown meanwhile
@@ -95,8 +128,9 @@ FrameKind ScenePicture::prepare(const Scene& scene, const PictureWish& wish) {
     // A little more at once costs less than a part of its own.
     part_end_ = full_size_ - grown_ <= part + part / 2 ? full_size_ : grown_ + part;
     const bool last = part_end_ == full_size_;
-    complete_ = last && growing_.serves(scene, wish);
-    return last && grown_ == 0 ? FrameKind::whole_surface : FrameKind::part_of_surface;
+    drew_fine_ = growing_.fine;
+    complete_ = last && !grows_base_ && growing_.serves(scene, wish);
+    return last && grown_ == 0 && !grows_base_ ? FrameKind::whole_surface : FrameKind::part_of_surface;
 }
 
 void ScenePicture::record(const vk::raii::CommandBuffer& commands) {
@@ -105,19 +139,30 @@ void ScenePicture::record(const vk::raii::CommandBuffer& commands) {
     }
     const bool last = part_end_ == full_size_;
     const RenderTarget& target = growing_.drawn->target;
-    target.begin(commands, {grown_ == 0, last});
-    canvas(growing_.fine).pass.record(commands, *growing_.scene, grown_, part_end_);
+    const bool on_base = grown_ == 0 && rest_;
+    if (on_base) {
+        target.copy_from(commands, base_.drawn->target);
+    }
+    target.begin(commands, {grown_ == 0 && !on_base, last});
+    canvas(growing_.fine).pass.record(commands, drawn_now(), grown_, part_end_);
     target.end(commands, last);
     if (last) {
-        drop(shown_);
-        shown_ = std::exchange(growing_, {});
+        finish();
     }
+}
+
+void ScenePicture::finish() {
+    Sight& done = grows_base_ ? base_ : shown_;
+    drop(done);
+    done = std::exchange(growing_, {});
+    base_pays_ = base_pays_ || !grows_base_;
+    grows_base_ = false;
+    rest_.reset();
 }
 
 void ScenePicture::took(double milliseconds) {
     if (draws_) {
-        const bool fine = growing_.drawn ? growing_.fine : shown_.fine;
-        canvas(fine).part_size.took(part_end_ - grown_, milliseconds);
+        canvas(drew_fine_).part_size.took(part_end_ - grown_, milliseconds);
         grown_ = part_end_;
         draws_ = false;
     }

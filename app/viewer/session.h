@@ -128,6 +128,7 @@ class Session {
 
     const Shown& shown() const { return *shown_; }
     Scene scene() const;
+    bool in_motion() const; ///< the camera moves
     /// Nothing is under way and all that was asked for is shown.
     bool settled() const;
     WorkerState work() const { return worker_->state(); }
@@ -151,7 +152,6 @@ class Session {
     bool handle_line(const InputEvent& event);
     void trace_line();
     bool command_of_selection(const InputEvent& event);
-    bool in_motion() const;
     void note_missing(const MissingMesh& error, std::function<void(const std::filesystem::path&)> go_on);
     SceneItem surface_item() const;
     bool occluder_key(const InputEvent& event);

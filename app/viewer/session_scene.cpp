@@ -4,11 +4,13 @@
 #include "engine/occluder/shape_nodes.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace anvil {
 
 namespace {
 
+constexpr double room_step = 0.25; ///< of a box's diagonal
 constexpr std::chrono::milliseconds motion_after_zoom(200);
 const glm::vec4 occluder_colour(0.17F, 0.34F, 0.52F, 0.42F);
 const glm::vec4 selected_colour(0.15F, 0.42F, 0.72F, 0.5F);
@@ -19,6 +21,19 @@ glm::mat4 model_view(const OrbitCamera& camera, const Transform& transform) {
     const glm::dmat3 axes(place.axes[0] * place.scale, place.axes[1] * place.scale,
                           place.axes[2] * place.scale);
     return camera.view(place.origin) * glm::mat4(glm::mat3(axes));
+}
+
+/// What is dragged may leave the box. In large steps: depths stay comparable from one scene of a drag to the
+/// next.
+Box with_room_for(const Box& box, const std::vector<Vec3>& ends, double radius) {
+    double beyond = 0;
+    for (const Vec3& end : ends) {
+        const Vec3 out = glm::max(box.low - end, end - box.high) + Vec3(radius);
+        beyond = std::max({beyond, out.x, out.y, out.z});
+    }
+    const double step = room_step * box.diagonal();
+    const double room = beyond > 0 && step > 0 && std::isfinite(beyond) ? std::ceil(beyond / step) * step : 0;
+    return {box.low - Vec3(room), box.high + Vec3(room)};
 }
 
 /// Translucent things with how far they are from the eye.
@@ -61,11 +76,8 @@ Scene Session::scene() const {
     }
     scene.items.push_back(surface_item());
     Box all = bounds();
-    if (shown_->drag) { // what is dragged may leave the box
-        for (const Vec3& end : shown_->drag->ends) {
-            all.include(end - Vec3(editor.radius));
-            all.include(end + Vec3(editor.radius));
-        }
+    if (shown_->drag) {
+        all = with_room_for(all, shown_->drag->ends, editor.radius);
     }
     Translucent translucent;
     if (editor.mirror) {

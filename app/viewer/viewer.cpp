@@ -115,8 +115,8 @@ class Viewer {
         // that takes it seconds.
         const bool many = session_.shown().look->coarse != nullptr;
         const bool fine = !painter_.draws_on_cpu() || ((resting() || bare) && !many);
-        const Painted painted =
-            painter_.paint(scene, {marks.all(), *ImGui::GetDrawData()}, fine, bare || wants_picture(), log_);
+        const Painted painted = painter_.paint(scene, {marks.all(), *ImGui::GetDrawData()},
+                                               {fine, bare || wants_picture(), !session_.in_motion()}, log_);
         fine_ = fine && painted == Painted::all;
         in_part_ = painted == Painted::in_part;
         log_.enter(FramePart::pictures);

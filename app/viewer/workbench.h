@@ -141,6 +141,7 @@ class Workbench {
     size_t regions_seen_ = 0; ///< of the session's work: what the last region was made of
     size_t shapes_seen_ = 0;
     std::shared_ptr<Buffer> marks_;
+    SplitTriangles split_; ///< of the region
     std::map<std::string, std::pair<OccluderShape, OccluderView>> occluder_views_;
     std::optional<ContactProbe> probe_; ///< of the drag's region
     size_t probed_region_ = 0;

@@ -118,6 +118,11 @@ std::shared_ptr<const DrawnRegion> Workbench::drawn_region() {
     auto drawn = std::make_shared<DrawnRegion>();
     drawn->vertices = session_->normal_vertices();
     const DragWork& done = session_->work();
+    if (device_->info().type == DeviceType::cpu && (!marks_ || done.regions != regions_seen_)) {
+        split_ = split_triangles(device_->state(), *surface_->mesh, surface_->positions, drawn->vertices);
+    }
+    drawn->inside = split_.inside;
+    drawn->outside = split_.outside;
     if (!marks_ || done.regions != regions_seen_ || done.shapes != shapes_seen_) {
         marks_ = std::make_shared<Buffer>(
             storage_buffer(device_->state(), std::span<const RegionMark>(marks_of(session_->region()))));
@@ -142,6 +147,7 @@ std::shared_ptr<const DrawnRegion> Workbench::drawn_region() {
 void Workbench::drop_preview() {
     session_.reset();
     marks_.reset();
+    split_ = {};
     Shown next = *shown();
     next.region.reset();
     next.drag.reset();

@@ -59,7 +59,8 @@ RenderTarget::RenderTarget(DeviceState& device, uint32_t width, uint32_t height,
     guarded("taking memory for a picture", [&] {
         const vk::Extent3D extent{width, height, 1};
         const auto colour = vk::ImageUsageFlagBits::eColorAttachment;
-        const auto read = colour | vk::ImageUsageFlagBits::eTransferSrc;
+        const auto copied = vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eTransferDst;
+        const auto read = colour | copied;
         colour_ = make_attachment(device, extent, format, samples, multisampled_ ? colour : read,
                                   vk::ImageAspectFlagBits::eColor);
         if (multisampled_) {
@@ -67,7 +68,7 @@ RenderTarget::RenderTarget(DeviceState& device, uint32_t width, uint32_t height,
                                         vk::ImageAspectFlagBits::eColor);
         }
         const auto depth = vk::ImageUsageFlagBits::eDepthStencilAttachment;
-        const auto kept = keeps_depth ? depth | vk::ImageUsageFlagBits::eSampled : depth;
+        const auto kept = keeps_depth ? depth | copied | vk::ImageUsageFlagBits::eSampled : depth;
         depth_ = make_attachment(device, extent, depth_format(device), samples, multisampled_ ? depth : kept,
                                  vk::ImageAspectFlagBits::eDepth);
         if (multisampled_ && keeps_depth) {
@@ -136,6 +137,26 @@ void RenderTarget::end(const vk::raii::CommandBuffer& commands, bool last) const
                       vk::ImageLayout::eDepthAttachmentOptimal, vk::ImageLayout::eShaderReadOnlyOptimal,
                       vk::ImageAspectFlagBits::eDepth);
     }
+}
+
+void RenderTarget::copy_from(const vk::raii::CommandBuffer& commands, const RenderTarget& other) const {
+    const auto copy = [&](const Attachment& from, const Attachment& to, vk::ImageLayout from_left_in,
+                          vk::ImageLayout begins_in, vk::ImageAspectFlags aspect) {
+        const auto source = vk::ImageLayout::eTransferSrcOptimal;
+        const auto target = vk::ImageLayout::eTransferDstOptimal;
+        change_layout(commands, *from.image, from_left_in, source, aspect);
+        change_layout(commands, *to.image, vk::ImageLayout::eUndefined, target, aspect);
+        const vk::ImageSubresourceLayers layer{.aspectMask = aspect, .layerCount = 1};
+        commands.copyImage(
+            *from.image, source, *to.image, target,
+            vk::ImageCopy{.srcSubresource = layer, .dstSubresource = layer, .extent = {width_, height_, 1}});
+        change_layout(commands, *from.image, source, from_left_in, aspect);
+        change_layout(commands, *to.image, target, begins_in, aspect);
+    };
+    copy(other.colour_, colour_, vk::ImageLayout::eTransferSrcOptimal,
+         vk::ImageLayout::eColorAttachmentOptimal, vk::ImageAspectFlagBits::eColor);
+    copy(other.depth_, depth_, vk::ImageLayout::eShaderReadOnlyOptimal,
+         vk::ImageLayout::eDepthAttachmentOptimal, vk::ImageAspectFlagBits::eDepth);
 }
 
 } // namespace anvil

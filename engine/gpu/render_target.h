@@ -18,8 +18,8 @@ class RenderTarget {
   public:
     static constexpr vk::Format colour_format = vk::Format::eR8G8B8A8Srgb; ///< of pictures
 
-    /// `keeps_depth`: for depths(). @throws DeviceError if the size exceeds the device's limits or memory is
-    /// out.
+    /// `keeps_depth`: for depths() and copy_from(). @throws DeviceError if the size exceeds the device's
+    /// limits or memory is out.
     RenderTarget(DeviceState& device, uint32_t width, uint32_t height, vk::SampleCountFlagBits samples,
                  vk::Format format = colour_format, bool keeps_depth = false);
 
@@ -34,6 +34,9 @@ class RenderTarget {
     void begin(const vk::raii::CommandBuffer& commands) const { begin(commands, Part{}); }
     /// Ends drawing; after the last part the picture is ready to be copied from colour().
     void end(const vk::raii::CommandBuffer& commands, bool last = true) const;
+    /// In place of a first part: colour and depth of a picture of the same kind and size that is done.
+    /// @pre one sample a pixel, keeps_depth
+    void copy_from(const vk::raii::CommandBuffer& commands, const RenderTarget& other) const;
     vk::Image colour() const { return *(multisampled_ ? resolved_ : colour_).image; }
     /// One depth a pixel, in the layout that shaders read once the last part is drawn. @pre keeps_depth
     vk::ImageView depths() const { return *(multisampled_ ? resolved_depth_ : depth_).view; }
