@@ -61,6 +61,12 @@ void set_style(float scale) {
     style.ScaleAllSizes(scale);
 }
 
+/// A text field, or a question that is asked: what answers it is no command to what lies behind.
+bool takes_keys() {
+    return ImGui::GetIO().WantTextInput ||
+           ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+
 } // namespace
 
 Ui::Ui(Window& window, double scale) {
@@ -115,12 +121,12 @@ bool Ui::handle(const InputEvent& event) {
         if (event.key >= 0 && event.key < 512) {
             io.KeysDown[event.key] = event.kind == InputEvent::Kind::key_down;
         }
-        return io.WantTextInput;
+        return takes_keys();
     case InputEvent::Kind::text:
         if (io.WantTextInput) {
             io.AddInputCharacter(event.character);
         }
-        return io.WantTextInput;
+        return takes_keys();
     default:
         return false;
     }

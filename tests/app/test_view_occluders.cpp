@@ -98,6 +98,17 @@ TEST_CASE("An occluder that is off is left out of the edit, and can be left out 
     CHECK_THAT(content_of(stage.file("without.json")), Catch::Contains("\"occluders\": []"));
 }
 
+TEST_CASE("Switching an occluder off is undone and redone as a step, also under an edit", "[app][view]") {
+    const Stage stage;
+    const std::string pull = "move @0.0,10,0\nwait\ndrag 20 30\nwait\n";
+    stage.play("occluder add ball sphere 0.1 0,0,2\nwait\nradius 0.3\noccluder off ball\nwait\n"
+               "expect undo \"switching ball off\"\nkey ctrl+z\nwait\nexpect undo \"new occluder\"\n" +
+               pull + stage.saving("on") + "key ctrl+z\nwait\noccluder off ball\nwait\nkey ctrl+z\nwait\n" +
+               "key ctrl+shift+z\nwait\nexpect undo \"switching ball off\"\n" + pull + stage.saving("off"));
+    CHECK_THAT(content_of(stage.file("on.json")), !Catch::Contains("\"occluders\": []"));
+    CHECK_THAT(content_of(stage.file("off.json")), Catch::Contains("\"occluders\": []"));
+}
+
 TEST_CASE("Any past edit is changed, moved in the list and undone again", "[app][view]") {
     const Stage stage;
     stage.play(

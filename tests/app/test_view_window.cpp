@@ -127,6 +127,34 @@ TEST_CASE("A file that cannot be opened costs neither the edit under way nor the
         session.play(script + "key g\ntype 0.05\nkey x\nwait\nkey enter\nwait\nexpect edits 1\n", "cpu"));
 }
 
+TEST_CASE("An edit under way counts as unsaved: another file is opened only when that is answered",
+          "[app][view]") {
+    const ViewerSession session;
+    const std::string other = session.file("other.ply");
+    REQUIRE(run_anvil({"sample", "icosphere", "-o", other, "--vertices", "642"}).status == 0);
+    const std::string begun = front + "move @0.0,10,0\nwait\nclick\nwait\nexpect handles 1\n";
+    const std::string moved = "key g\nkey x\ntype 0.05\nwait\nclick\nwait\nexpect pending yes\n";
+    const std::string dropped = "drop " + other + "\nwait\nsleep 0.1\nwait\n";
+    check_run(
+        session.play(begun + moved + dropped +
+                         "expect handles 1\nkey escape\nsleep 0.1\nwait\nkey enter\nwait\nexpect edits 1\n",
+                     "cpu"));
+    check_run(session.play(begun + dropped + "expect vertices 642\n", "cpu")); // nothing is moved
+}
+
+TEST_CASE("A double click in a dialog enters a folder and opens a file", "[app][view]") {
+    const ViewerSession session;
+    const std::string folder = session.file("deep");
+    fs::create_directory(folder);
+    REQUIRE(run_anvil({"sample", "icosphere", "-o", folder + "/ball.ply", "--vertices", "642"}).status == 0);
+    // The first entry: folders come first.
+    const std::string twice = "move 200 163\nclick\nclick\nsleep 0.2\nwait\n";
+    check_run(session.play(front + "key ctrl+o\nsleep 0.2\ntype " + session.file("") +
+                               "\nsleep 0.1\nkey enter\nsleep 0.2\n" + twice + twice +
+                               "expect vertices 642\n",
+                           "cpu"));
+}
+
 TEST_CASE("A recipe that cannot be saved stays unsaved, with all its edits", "[app][view]") {
     const ViewerSession session;
     check_run(session.play(front + bend + "save " + session.file("nowhere/bent.json") +
