@@ -31,19 +31,26 @@ std::string verdict(const SelftestResult& result) {
 }
 
 void run(const std::string& device, CommandContext& context) {
-    const ChosenBackend tested = open_backend(device);
+    const ChosenBackend tested = open_backend(device, DeviceBaking::always);
     const std::vector<SelftestCase> cases = selftest_cases();
+    SearchDevice* const baking = tested.backend->search_device();
     std::string text = tested.backend->device_name() + " against the double-precision reference\n" +
                        row("case", "points", "worst", "allowed", "bifurcating", "");
-    size_t failures = 0;
+    std::vector<SelftestResult> results;
     for (size_t i = 0; i < cases.size(); ++i) {
         context.progress.report("selftest", static_cast<double>(i) / static_cast<double>(cases.size()));
-        const SelftestResult result = run_selftest_case(*tested.backend, cases[i]);
+        results.push_back(run_selftest_case(*tested.backend, cases[i]));
+    }
+    if (baking != nullptr) {
+        results.push_back(run_baking_selftest(*baking));
+    }
+    size_t failures = 0;
+    for (const SelftestResult& result : results) {
         text += row(result.name, std::to_string(result.points), rounded_text(result.worst),
                     rounded_text(result.allowed), std::to_string(result.bifurcating), verdict(result));
         failures += result.passed() ? 0 : 1;
     }
-    text += std::to_string(cases.size() - failures) + " of " + std::to_string(cases.size()) +
+    text += std::to_string(results.size() - failures) + " of " + std::to_string(results.size()) +
             " cases hold; deviations are fractions of the diagonal\n";
     write_text("", text);
     check_validation(tested.device);

@@ -1,5 +1,7 @@
 #include "engine/gpu/selftest.h"
 
+#include "engine/mesh/sample_shapes.h"
+#include "engine/occluder/mesh_distance.h"
 #include "engine/occluder/occluder_motion.h"
 
 #include <algorithm>
@@ -114,6 +116,27 @@ SelftestResult run_selftest_case(Backend& backend, const SelftestCase& test) {
                 glm::length(found[i].displacement - truth[i].displacement) / test.diagonal;
             result.worst = std::max(result.worst, difference);
         }
+    }
+    return result;
+}
+
+SelftestResult run_baking_selftest(SearchDevice& device) {
+    Mesh mesh = make_sample("bust", 1000);
+    mesh.triangles.resize(mesh.triangles.size() - 20); // a hole: signs by the winding number
+    const auto solid = mesh_distance(mesh);
+    Progress progress;
+    const std::vector<uint32_t> truth = bake_adaptive(*solid, 32, progress).words;
+    const std::vector<uint32_t> found = bake_adaptive(*solid, 32, progress, &device).words;
+    SelftestResult result{.name = "baked field", .points = truth.size()};
+    if (found.size() != truth.size()) { // bricks are other ones
+        result.deviating = truth.size();
+        return result;
+    }
+    constexpr uint32_t distance_bits = 0xfff;
+    for (size_t i = 0; i < truth.size(); ++i) {
+        const uint32_t differs = found[i] ^ truth[i];
+        result.deviating += (differs & distance_bits) != 0 ? 1 : 0;
+        result.bifurcating += differs != 0 && (differs & distance_bits) == 0 ? 1 : 0;
     }
     return result;
 }

@@ -39,4 +39,9 @@ struct SelftestResult {
 /// by more than 1e-4 of the diagonal when its input moves by 4 float ulps.
 SelftestResult run_selftest_case(Backend& backend, const SelftestCase& test);
 
+/// Bakes a field of a damaged mesh with the device and without: `points` are its samples, `deviating` those
+/// whose distance differs, `bifurcating` those whose normal alone does (of triangles equally near).
+/// @throws DeviceError
+SelftestResult run_baking_selftest(SearchDevice& device);
+
 } // namespace anvil

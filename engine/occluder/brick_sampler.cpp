@@ -16,6 +16,10 @@ constexpr double surface_reach = 2;
 // much as in the centre, and farther out by up to twice.
 constexpr double beside_centre = 2;
 constexpr double beside_samples = 1.2;
+// Voxels around the surface where vertices are held and slide: what a coarser brick is off there adds up
+// along their way, to more than the field's tolerance if each brick used that up.
+constexpr double contact_reach = 1.5;
+constexpr double contact_tolerance = 0.01;
 
 /// All samples of a cluster are a lattice of this side: four children's.
 constexpr int lattice_side = 4 * brick_cells + 1;
@@ -28,6 +32,11 @@ int lattice_index(const CellIndex& place) {
 
 CellIndex lattice_place(int index) {
     return {index % lattice_side, index / lattice_side % lattice_side, index / (lattice_side * lattice_side)};
+}
+
+/// What a coarser brick may be off where the finest one shows this distance, in voxels.
+double spared_tolerance(double distance) {
+    return std::abs(distance) < contact_reach ? contact_tolerance : adaptive_tolerance(distance);
 }
 
 int octant_of(const CellIndex& cell) {
@@ -228,7 +237,7 @@ bool BrickSampler::spares_centres(const Brick& parent, const Brick& child) const
     for_centres(child, [&](int at) {
         const double distance = lattice_[at].w;
         const double other = parent.interpolated(lattice_cells(at)).w;
-        good = good && beside_centre * std::abs(other - distance) <= adaptive_tolerance(distance);
+        good = good && beside_centre * std::abs(other - distance) <= spared_tolerance(distance);
     });
     return good;
 }
@@ -299,7 +308,7 @@ bool BrickSampler::spares(const Brick& coarser, const Brick& brick) {
     for (int i = 0; i < brick_samples; ++i) {
         const double distance = brick.samples[i].w;
         const double other = coarser.interpolated(Vec3(brick.origin() + (sample_place(i) << brick.level))).w;
-        if (beside_samples * std::abs(other - distance) > adaptive_tolerance(distance)) {
+        if (beside_samples * std::abs(other - distance) > spared_tolerance(distance)) {
             return false;
         }
     }

@@ -1,5 +1,7 @@
 #include "engine/core/error.h"
+#include "engine/gpu/gpu_backend.h"
 #include "engine/gpu/search_device.h"
+#include "engine/gpu/selftest.h"
 #include "engine/mesh/sample_shapes.h"
 #include "engine/occluder/adaptive_field.h"
 #include "engine/occluder/distance_volume.h"
@@ -103,4 +105,53 @@ TEST_CASE("a mesh too large for a device is baked without it, and a bake on a de
     progress.cancel();
     CHECK_THROWS_AS(bake_adaptive(*solid, 24, progress, large.get()), Cancelled);
     CHECK_THROWS_AS(bake(*solid, 24, progress, large.get()), Cancelled);
+}
+
+TEST_CASE("a back end bakes where that is faster, on GPUs, and elsewhere only where it is told to") {
+    const CheckedDevice device;
+    const bool gpu = device->info().type != DeviceType::cpu;
+    const auto bakes = [&](const GpuBackendOptions& options) {
+        return make_gpu_backend(device.shared(), options)->search_device() != nullptr;
+    };
+    CHECK(bakes({}) == gpu);
+    CHECK(bakes({.baking = DeviceBaking::always}));
+    CHECK_FALSE(bakes({.baking = DeviceBaking::never}));
+    CHECK(make_cpu_backend()->search_device() == nullptr);
+}
+
+namespace {
+
+/// Finds any triangle.
+class Lying final : public SearchDevice {
+  public:
+    std::unique_ptr<TriangleSearch> put(const NarrowTree& tree) override {
+        return std::make_unique<Search>(static_cast<uint32_t>(tree.triangles.size()));
+    }
+
+  private:
+    class Search final : public TriangleSearch {
+      public:
+        explicit Search(uint32_t triangles) : triangles_(triangles) {}
+        bool find(std::span<const glm::vec3> points, std::span<NearSlots> found) override {
+            for (size_t i = 0; i < points.size(); ++i) {
+                found[i].fill(kernel::f32::NO_TRIANGLE);
+                found[i][0] = static_cast<uint32_t>(i) % triangles_;
+            }
+            return true;
+        }
+
+      private:
+        uint32_t triangles_;
+    };
+};
+
+} // namespace
+
+TEST_CASE("the self-test bakes a field, and finds out a device that bakes another one") {
+    const CheckedDevice device;
+    const SelftestResult result = run_baking_selftest(*make_search_device(device.shared()));
+    CHECK(result.points > 1000);
+    CHECK(result.passed());
+    Lying lying;
+    CHECK_FALSE(run_baking_selftest(lying).passed());
 }
