@@ -17,5 +17,6 @@ real flat_squared_distance(real from_origin, real x, real y, real b, real cx, re
     real on_bc = share(bc * bc2_inverse);
     real by_bc = on_bc * (on_bc * (ex * ex + cy * cy) - 2 * bc) + b * (b - 2 * x);
     real by_sides = least(by_ab, least(by_ac, by_bc));
-    return from_origin + (least(y, least(cy * x - cx * y, ex * y - cy * fx)) > 0 ? -(x * x + y * y) : by_sides);
+    return from_origin +
+           (least(y, least(cy * x - cx * y, ex * y - cy * fx)) > 0 ? -(x * x + y * y) : by_sides);
 }

@@ -1,7 +1,7 @@
-// Which triangles of a search tree may be nearest to a point, alike in C++ and GLSL. In single precision, with
-// bounds on what that rounds away: the nearest one is always among them. The includer provides the structs of
-// search_tree.h, tree_size(), tree_node(i), tree_triangle(i), flat_squared_distance(), and found_near(i), which
-// is told their numbers.
+// Which triangles of a search tree may be nearest to a point, alike in C++ and GLSL. In single precision,
+// with bounds on what that rounds away: the nearest one is always among them. The includer provides the
+// structs of search_tree.h, tree_size(), tree_node(i), tree_triangle(i), flat_squared_distance(), and
+// found_near(i), which is told their numbers.
 
 // A point's coordinates are off by 2^-24 of them, a triangle's origin, at most 1/2 away, by 2^-26: by twice
 // this times (1/2 + the largest coordinate), and the root of three times as far.
