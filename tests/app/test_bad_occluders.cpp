@@ -1,4 +1,4 @@
-#include "tests/app/forge_folder.h"
+#include "tests/app/refused_recipe.h"
 
 #include <catch2/catch.hpp>
 #include <openvdb/io/File.h>
@@ -50,13 +50,7 @@ std::string with_resolution(const std::string& resolution) {
                       R"(, "field": {"kind": "adaptive", "resolution": )" + resolution + "}");
 }
 
-struct BadOccluder {
-    std::string what;
-    std::string recipe;
-    std::vector<std::string> shown; ///< the message holds all of these
-};
-
-const std::vector<BadOccluder> bad_occluders = {
+const std::vector<RefusedRecipe> bad_occluders = {
     {"a fog volume", with_shape(R"({"vdb": "fog.vdb"})"), {"tool", "fog.vdb", "no level set", "density"}},
     {"a fog volume by its name",
      with_shape(R"({"vdb": "mixed.vdb", "grid": "density"})"),
@@ -99,15 +93,9 @@ TEST_CASE("A bad occluder, path or motion is status 2 and a line that says what 
     write_level_sets(folder);
     folder.write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
     folder.write("line.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n");
-    for (const BadOccluder& bad : bad_occluders) {
+    for (const RefusedRecipe& bad : bad_occluders) {
         INFO(bad.what);
-        const ProgramRun run = folder.forge_recipe(bad.recipe);
-        CHECK(run.status == 2);
-        CHECK(run.out.empty());
-        CHECK_THAT(run.err, Catch::StartsWith("anvil: error: "));
-        for (const std::string& shown : bad.shown) {
-            CHECK_THAT(run.err, Catch::Contains(shown));
-        }
+        check_refused(folder, bad);
         CHECK_FALSE(folder.has("out.ply"));
     }
 }

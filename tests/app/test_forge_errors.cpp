@@ -1,4 +1,4 @@
-#include "tests/app/forge_folder.h"
+#include "tests/app/refused_recipe.h"
 
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -6,12 +6,6 @@
 using namespace anvil;
 
 namespace {
-
-struct BadRecipe {
-    std::string what;
-    std::string recipe;
-    std::vector<std::string> shown; ///< the message holds all of these
-};
 
 std::string translate(const std::string& handle, const std::string& more = "") {
     return recipe_text(R"([{"kind": "translate", "radius": 0.8, "handles": [)" + handle + "]" + more + "}]");
@@ -24,7 +18,7 @@ std::string with_occluder(const std::string& more) {
 const std::string ball = R"("shape": {"sphere": {"radius": 0.3}})";
 const std::string good_handle = R"({"at": {"vertex": 3}, "by": [0, 0.1, 0]})";
 
-const std::vector<BadRecipe> bad_recipes = {
+const std::vector<RefusedRecipe> bad_recipes = {
     {"no JSON", "{\"anvil\": 1,\n \"mesh\" 2}", {"line 2"}},
     {"empty file", "", {}},
     {"a version to come", R"({"anvil": 2, "mesh": "mesh.ply", "edits": []})", {"anvil", "2"}},
@@ -103,15 +97,9 @@ TEST_CASE("A bad recipe is status 2, one line that says where and what, and no o
           "[app][forge]") {
     const ForgeFolder folder;
     folder.write("out.ply", "precious");
-    for (const BadRecipe& bad : bad_recipes) {
+    for (const RefusedRecipe& bad : bad_recipes) {
         INFO(bad.what);
-        const ProgramRun run = folder.forge_recipe(bad.recipe);
-        CHECK(run.status == 2);
-        CHECK(run.out.empty());
-        CHECK_THAT(run.err, Catch::StartsWith("anvil: error: "));
-        for (const std::string& shown : bad.shown) {
-            CHECK_THAT(run.err, Catch::Contains(shown));
-        }
+        check_refused(folder, bad);
         CHECK(content_of(folder.path("out.ply")) == "precious");
     }
 }
