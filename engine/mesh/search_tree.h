@@ -52,24 +52,6 @@ class SearchTree {
     /// lengths of `direction`. Nothing is found where it meets none.
     ClosestPoint first_hit(const Vec3& origin, const Vec3& direction) const;
 
-    /// Calls visit(triangle) for every triangle whose box is no farther than `reach` from this one, and for
-    /// some that are a little farther, until it returns false.
-    template <class Visit>
-    void each_near(const Box& box, double reach, const Visit& visit) const {
-        const auto near = [&](const Box& other) {
-            const Vec3 gap = glm::max(glm::max(other.low - box.high, box.low - other.high), Vec3(0));
-            return glm::dot(gap, gap) <= reach * reach;
-        };
-        each_leaf(near, [&](const Node& leaf) {
-            for (uint32_t slot = leaf.first; slot < leaf.first + leaf.count; ++slot) {
-                if (!visit(order_[slot])) {
-                    return false;
-                }
-            }
-            return true;
-        });
-    }
-
     /// Of the triangles in these slots, as narrowed() numbers them, the one nearest to a query, which is
     /// finite; equally near ones: the lowest triangle.
     ClosestPoint closest_of(const Vec3& query, std::span<const uint32_t> slots) const;
@@ -78,9 +60,12 @@ class SearchTree {
     NarrowTree narrowed() const;
 
     size_t triangle_count() const { return order_.size(); }
+    /// The triangle in each of triangle_count() slots; neighbours of a slot are mostly near it in space.
+    std::span<const uint32_t> order() const { return order_; }
 
   private:
     friend class ClosestPointSearch;
+    friend class TrianglePairs;
 
     // Below this depth the halves are equal in number, so that no arrangement of triangles makes the tree
     // deep.

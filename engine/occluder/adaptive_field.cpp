@@ -37,7 +37,7 @@ BrickLayout layout(const Box& box, uint32_t resolution) {
 
 /// The lowest `bits` of a whole number, negative ones as their complement.
 uint32_t low_bits(double x, int bits) {
-    return static_cast<uint32_t>(std::lround(x)) & ((1U << bits) - 1);
+    return static_cast<uint32_t>(nearest_whole(x)) & ((1U << bits) - 1);
 }
 
 /// Distance in its brick's unit, and the octahedral map of the normal: the sphere unfolded to a square.

@@ -17,8 +17,18 @@ void round_as_stored(Brick& brick) {
     }
     const double unit = brick.unit();
     for (glm::vec4& sample : brick.samples) {
-        sample.w = static_cast<float>(std::round(sample.w / unit) * unit);
+        sample.w = static_cast<float>(nearest_whole(sample.w / unit) * unit);
     }
+}
+
+/// The places in a brick, along one axis, of samples that it shares with its neighbour in this direction.
+struct Range {
+    int begin;
+    int end;
+};
+
+Range shared_places(int step) {
+    return {step > 0 ? brick_cells : 0, step < 0 ? 1 : brick_side};
 }
 
 /// What a brick needs to take over values from its coarser neighbours.
@@ -27,11 +37,20 @@ class Stitcher {
     Stitcher(BrickTree& tree, const std::vector<uint32_t>& table) : tree_(tree), table_(table) {}
 
     void stitch(Brick& brick) {
+        coarsest_.fill(nullptr);
+        bool any = false;
         for (int i = 0; i < 27; ++i) {
-            neighbours_[i] = neighbour(brick, CellIndex(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+            const CellIndex step(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+            if (const Brick* found = neighbour(brick, step)) {
+                offer(*found, step);
+                any = true;
+            }
         }
-        for (int i = 0; i < brick_samples; ++i) {
-            stitch_sample(brick, sample_place(i));
+        for (int i = 0; any && i < brick_samples; ++i) {
+            if (coarsest_[i] != nullptr) {
+                const CellIndex cells = brick.origin() + (sample_place(i) << brick.level);
+                brick.samples[i] = coarsest_[i]->interpolated(Vec3(cells));
+            }
         }
         round_as_stored(brick);
     }
@@ -48,33 +67,25 @@ class Stitcher {
         return found.level > brick.level ? &found : nullptr;
     }
 
-    void stitch_sample(Brick& brick, const CellIndex& s) {
-        const Brick* coarsest = nullptr;
-        for (int i = 0; i < 27; ++i) {
-            const CellIndex step(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-            if (neighbours_[i] != nullptr && touches(s, step) &&
-                (coarsest == nullptr || neighbours_[i]->level > coarsest->level)) {
-                coarsest = neighbours_[i];
+    void offer(const Brick& neighbour, const CellIndex& step) {
+        const Range xs = shared_places(step.x);
+        const Range ys = shared_places(step.y);
+        const Range zs = shared_places(step.z);
+        for (int z = zs.begin; z < zs.end; ++z) {
+            for (int y = ys.begin; y < ys.end; ++y) {
+                for (int x = xs.begin; x < xs.end; ++x) {
+                    const Brick*& coarsest = coarsest_[sample_index({x, y, z})];
+                    if (coarsest == nullptr || neighbour.level > coarsest->level) {
+                        coarsest = &neighbour;
+                    }
+                }
             }
         }
-        if (coarsest != nullptr) {
-            brick.samples[sample_index(s)] =
-                coarsest->interpolated(Vec3(brick.origin() + (s << brick.level)));
-        }
-    }
-
-    static bool touches(const CellIndex& s, const CellIndex& step) {
-        for (int i = 0; i < 3; ++i) {
-            if ((step[i] < 0 && s[i] != 0) || (step[i] > 0 && s[i] != brick_cells)) {
-                return false;
-            }
-        }
-        return true;
     }
 
     BrickTree& tree_;
     const std::vector<uint32_t>& table_;
-    std::array<const Brick*, 27> neighbours_{};
+    std::array<const Brick*, brick_samples> coarsest_{}; ///< of the neighbours that have a sample too
 };
 
 } // namespace

@@ -5,7 +5,9 @@
 #include "engine/occluder/exact_distance.h"
 #include "engine/occluder/kernel_types.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace anvil {
@@ -22,6 +24,12 @@ inline int sample_index(const CellIndex& sample) {
 }
 inline CellIndex sample_place(int index) {
     return {index % brick_side, index / brick_side % brick_side, index / (brick_side * brick_side)};
+}
+
+/// The whole number nearest to x, halves away from zero; |x| < 2^31.
+inline int nearest_whole(double x) {
+    // Half of the last digit less than a half: what is below a half is not to reach one by rounding.
+    return static_cast<int>(x + std::copysign(0.49999999999999994, x));
 }
 
 /// (normal, distance in voxels) at the corners of a brick's cells, x fastest.
@@ -44,6 +52,25 @@ struct Brick {
     /// Trilinear interpolation at a point in finest cells.
     glm::dvec4 interpolated(const Vec3& cells) const;
 };
+
+// Here so that what is not asked for, distance or normal, is not computed.
+inline glm::dvec4 Brick::interpolated(const Vec3& cells) const {
+    const Vec3 within = (cells - Vec3(origin())) / static_cast<double>(1 << level);
+    const CellIndex low(std::clamp(static_cast<int>(within.x), 0, brick_cells - 1),
+                        std::clamp(static_cast<int>(within.y), 0, brick_cells - 1),
+                        std::clamp(static_cast<int>(within.z), 0, brick_cells - 1));
+    const Vec3 t = within - Vec3(low);
+    const glm::vec4* first = &samples[sample_index(low)];
+    glm::dvec4 sum(0);
+    for (int corner = 0; corner < 8; ++corner) {
+        const int dx = corner & 1;
+        const int dy = corner >> 1 & 1;
+        const int dz = corner >> 2;
+        const double weight = (dx ? t.x : 1 - t.x) * (dy ? t.y : 1 - t.y) * (dz ? t.z : 1 - t.z);
+        sum += weight * glm::dvec4(first[sample_index({dx, dy, dz})]);
+    }
+    return sum;
+}
 
 /// The box of an adaptive field: `low` its corner, `grid` its size in finest bricks.
 struct BrickLayout {

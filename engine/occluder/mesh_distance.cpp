@@ -46,6 +46,9 @@ class MeshDistance final : public ExactDistance {
         void trace(std::span<const Vec3> points, std::span<SignedDistance> found) override {
             closest_.resize(points.size());
             nearest_.closest(points, closest_);
+            for (const ClosestPoint& closest : closest_) {
+                solid_.sides_.prefetch(closest);
+            }
             for (size_t i = 0; i < points.size(); ++i) {
                 found[i] = solid_.signed_distance(points[i], closest_[i]);
             }

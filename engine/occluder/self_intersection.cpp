@@ -1,6 +1,7 @@
 #include "engine/occluder/self_intersection.h"
 
 #include "engine/core/parallel_for.h"
+#include "engine/mesh/triangle_pairs.h"
 
 #include <atomic>
 
@@ -12,14 +13,32 @@ using Corners = std::array<Vec3, 3>;
 
 constexpr double rounding = 1e-13; // of products of lengths, relative
 
-/// A triangle with its normal, twice the area long.
+// Of volumes against the cube of the largest coordinate from one corner to another: no less than `rounding`
+// against the cube of the diagonal.
+constexpr double clear_rounding = 5e-12;
+
+/// A triangle of the mesh.
 struct Face {
     Corners at;
-    Vec3 normal;
+    Vec3 normal;      ///< twice the area long
+    double reach = 0; ///< sum of the coordinates from the first corner to another one, the larger
+    Triangle corners;
+    uint32_t number = 0;
 };
 
-Face face_of(const Corners& at) {
-    return {at, glm::cross(at[1] - at[0], at[2] - at[0])};
+double sum_of_sizes(const Vec3& v) {
+    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
+
+Face face_of(std::span<const Vec3> positions, const Triangle& t, uint32_t number) {
+    const Vec3& a = positions[t[0]];
+    const Vec3 ab = positions[t[1]] - a;
+    const Vec3 ac = positions[t[2]] - a;
+    return {{a, positions[t[1]], positions[t[2]]},
+            glm::cross(ab, ac),
+            std::max(sum_of_sizes(ab), sum_of_sizes(ac)),
+            t,
+            number};
 }
 
 double orient(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
@@ -115,13 +134,33 @@ double common_size(const Face& a, const Face& b) {
     return box.diagonal();
 }
 
-Crossing crossing(const Face& a, const Triangle& s, const Face& b, const Triangle& t) {
+/// Whether all corners of b that a has not lie clearly on one side of a's plane: then the two meet in common
+/// corners and edges only.
+bool clear_of_plane(const Face& a, const Face& b) {
+    double reach = a.reach;
+    double least = infinity;
+    double most = -infinity;
+    for (int i = 0; i < 3; ++i) {
+        const uint32_t v = b.corners[i];
+        if (v != a.corners[0] && v != a.corners[1] && v != a.corners[2]) {
+            const Vec3 arm = b.at[i] - a.at[0];
+            const double volume = glm::dot(a.normal, arm);
+            reach = std::max(reach, sum_of_sizes(arm));
+            least = std::min(least, volume);
+            most = std::max(most, volume);
+        }
+    }
+    const double tolerance = clear_rounding * reach * reach * reach;
+    return least > most ? false : least > tolerance || most < -tolerance;
+}
+
+Crossing crossing(const Face& a, const Face& b) {
     std::array<bool, 3> common_a{};
     std::array<bool, 3> common_b{};
     int count = 0;
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
-            if (s[i] == t[j]) {
+            if (a.corners[i] == b.corners[j]) {
                 common_a[i] = common_b[j] = true;
                 ++count;
             }
@@ -151,29 +190,27 @@ void mark(Crossing& flag, Crossing found) {
 std::vector<Crossing> find_crossings(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                                      const SearchTree& tree) {
     std::vector<Crossing> flags(triangles.size(), Crossing::none);
-    const auto face = [&](uint32_t t) {
-        const Triangle& corners = triangles[t];
-        return face_of({positions[corners[0]], positions[corners[1]], positions[corners[2]]});
+    const TrianglePairs pairs(tree);
+    std::vector<Face> faces;
+    faces.reserve(triangles.size());
+    for (const uint32_t t : tree.order()) {
+        faces.push_back(face_of(positions, triangles[t], t));
+    }
+    const auto compare = [&](uint32_t slot, uint32_t other) {
+        const Face& a = faces[slot];
+        const Face& b = faces[other];
+        if (clear_of_plane(a, b) || clear_of_plane(b, a)) {
+            return;
+        }
+        const Crossing found = a.number < b.number ? crossing(a, b) : crossing(b, a);
+        if (found != Crossing::none) {
+            mark(flags[a.number], found);
+            mark(flags[b.number], found);
+        }
     };
-    parallel_for(triangles.size(), 256, [&](size_t begin, size_t end) {
-        for (auto t = static_cast<uint32_t>(begin); t < end; ++t) {
-            const Face a = face(t);
-            Box box;
-            for (const Vec3& corner : a.at) {
-                box.include(corner);
-            }
-            tree.each_near(box, 0, [&](uint32_t other) {
-                if (other <= t) {
-                    return true;
-                }
-                const Face b = face(other);
-                const Crossing found = crossing(a, triangles[t], b, triangles[other]);
-                if (found != Crossing::none) {
-                    mark(flags[t], found);
-                    mark(flags[other], found);
-                }
-                return true;
-            });
+    parallel_for(pairs.leaf_count(), 64, [&](size_t begin, size_t end) {
+        for (size_t leaf = begin; leaf < end; ++leaf) {
+            pairs.each_of(leaf, compare);
         }
     });
     return flags;

@@ -3,6 +3,7 @@
 #include "engine/mesh/weld.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace anvil {
 
@@ -10,9 +11,9 @@ namespace {
 
 /// A triangle's edge from corner `edge % 3` on, of triangle edge / 3.
 struct EdgeUse {
-    uint64_t key; ///< of the two vertices, whatever the direction
+    uint32_t high; ///< of its two vertices
     uint32_t edge;
-    bool forward;
+    bool forward; ///< from the lower one to that
 };
 
 constexpr double clearly = 1e-6; // sine of the least angle to the surface that tells the side
@@ -25,20 +26,19 @@ double angle_between(const Vec3& a, const Vec3& b) {
 
 SurfaceSides::SurfaceSides(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                            const SearchTree& tree, const WindingNumber& winding)
-    : positions_(positions.begin(), positions.end()), triangles_(triangles.begin(), triangles.end()),
-      sound_(triangles.size(), true), front_(triangles.size(), unknown) {
+    : slots_(triangles.size()) {
     const std::vector<uint32_t> lowest = first_equal(positions);
-    normals_.reserve(triangles.size());
-    for (Triangle& t : triangles_) {
-        t = {lowest[t[0]], lowest[t[1]], lowest[t[2]]};
-        const Vec3 area = glm::cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
-        const double size = glm::length(area);
-        normals_.push_back(size > 0 ? area / size : Vec3(0));
+    std::vector<Triangle> joined;
+    joined.reserve(triangles.size());
+    for (const Triangle& t : triangles) {
+        joined.push_back({lowest[t[0]], lowest[t[1]], lowest[t[2]]});
     }
-    const std::vector<Crossing> crossings = find_crossings(positions, triangles_, tree);
-    for (size_t t = 0; t < triangles_.size(); ++t) {
-        sound_[t] = crossings[t] == Crossing::none && normals_[t] != Vec3(0);
-        crossing_ += crossings[t] == Crossing::crosses ? 1 : 0;
+    const std::vector<Crossing> crossings = find_crossings(positions, joined, tree);
+    std::vector<uint32_t> numbers(positions.size(), no_index);
+    faces_.reserve(triangles.size());
+    for (const uint32_t t : tree.order()) {
+        slots_[t] = static_cast<uint32_t>(faces_.size());
+        add_face(joined[t], positions, numbers, crossings[t]);
     }
     join_edges();
     if (closed_) {
@@ -47,49 +47,79 @@ SurfaceSides::SurfaceSides(std::span<const Vec3> positions, std::span<const Tria
     }
 }
 
-void SurfaceSides::join_edges() {
-    std::vector<EdgeUse> uses;
-    uses.reserve(3 * triangles_.size());
-    for (uint32_t t = 0; t < triangles_.size(); ++t) {
+void SurfaceSides::add_face(const Triangle& t, std::span<const Vec3> positions,
+                            std::vector<uint32_t>& numbers, Crossing crossing) {
+    Face& face = faces_.emplace_back();
+    for (int i = 0; i < 3; ++i) {
+        uint32_t& number = numbers[t[i]];
+        if (number == no_index) {
+            number = static_cast<uint32_t>(positions_.size());
+            positions_.push_back(positions[t[i]]);
+        }
+        face.corners[i] = number;
+    }
+    const Vec3 area = glm::cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
+    const double size = glm::length(area);
+    face.normal = size > 0 ? area / size : Vec3(0);
+    face.sound = crossing == Crossing::none && face.normal != Vec3(0);
+    crossing_ += crossing == Crossing::crosses ? 1 : 0;
+}
+
+template <class Visit>
+void SurfaceSides::each_edge(const Visit& visit) const {
+    for (uint32_t t = 0; t < faces_.size(); ++t) {
         for (uint32_t i = 0; i < 3; ++i) {
-            const uint64_t a = triangles_[t][i];
-            const uint64_t b = triangles_[t][(i + 1) % 3];
-            if (a != b) {
-                uses.push_back({std::min(a, b) << 32 | std::max(a, b), 3 * t + i, a < b});
+            const uint32_t from = faces_[t].corners[i];
+            const uint32_t to = faces_[t].corners[(i + 1) % 3];
+            if (from != to) {
+                visit(std::min(from, to), EdgeUse{std::max(from, to), 3 * t + i, from < to});
             }
         }
     }
-    std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
-        return a.key != b.key ? a.key < b.key : a.edge < b.edge;
-    });
-    neighbours_.assign(3 * triangles_.size(), no_index);
-    for (size_t i = 0; i < uses.size();) {
-        size_t end = i;
-        size_t forward = 0;
-        for (; end < uses.size() && uses[end].key == uses[i].key; ++end) {
-            forward += uses[end].forward ? 1 : 0;
+}
+
+void SurfaceSides::join_edges() {
+    // Where each lower vertex' uses end, once they are filled in.
+    std::vector<uint32_t> end(positions_.size() + 1, 0);
+    each_edge([&](uint32_t low, const EdgeUse&) { ++end[low + 1]; });
+    std::partial_sum(end.begin(), end.end(), end.begin());
+    std::vector<EdgeUse> uses(end.back());
+    each_edge([&](uint32_t low, const EdgeUse& use) { uses[end[low]++] = use; });
+    const auto before = [](const EdgeUse& a, const EdgeUse& b) {
+        return a.high != b.high ? a.high < b.high : a.edge < b.edge;
+    };
+    size_t begin = 0;
+    for (size_t low = 0; low < positions_.size(); ++low) {
+        std::sort(uses.begin() + static_cast<std::ptrdiff_t>(begin), uses.begin() + end[low], before);
+        for (size_t last = begin; begin < end[low]; begin = last) {
+            size_t forward = 0;
+            for (; last < end[low] && uses[last].high == uses[begin].high; ++last) {
+                forward += uses[last].forward ? 1 : 0;
+            }
+            closed_ = closed_ && 2 * forward == last - begin;
+            if (last - begin == 2 && forward == 1) {
+                join(uses[begin].edge, uses[begin + 1].edge);
+            }
         }
-        closed_ = closed_ && 2 * forward == end - i;
-        if (end - i == 2 && forward == 1) {
-            neighbours_[uses[i].edge] = uses[i + 1].edge / 3;
-            neighbours_[uses[i + 1].edge] = uses[i].edge / 3;
-        }
-        i = end;
     }
 }
 
+void SurfaceSides::join(uint32_t edge, uint32_t other) {
+    faces_[edge / 3].neighbours[edge % 3] = other / 3;
+    faces_[other / 3].neighbours[other % 3] = edge / 3;
+}
+
 void SurfaceSides::find_components(const WindingNumber& winding) {
-    std::vector<bool> seen(triangles_.size(), false);
-    for (uint32_t start = 0; start < triangles_.size(); ++start) {
-        if (seen[start] || !sound_[start]) {
+    std::vector<bool> seen(faces_.size(), false);
+    for (const uint32_t start : slots_) {
+        if (seen[start] || !faces_[start].sound) {
             continue;
         }
         std::vector<uint32_t> component{start};
         seen[start] = true;
         for (size_t next = 0; next < component.size(); ++next) {
-            for (int i = 0; i < 3; ++i) {
-                const uint32_t other = neighbours_[3 * component[next] + i];
-                if (other != no_index && sound_[other] && !seen[other]) {
+            for (const uint32_t other : faces_[component[next]].neighbours) {
+                if (other != no_index && faces_[other].sound && !seen[other]) {
                     seen[other] = true;
                     component.push_back(other);
                 }
@@ -97,7 +127,7 @@ void SurfaceSides::find_components(const WindingNumber& winding) {
         }
         const int front = measured_front(component, winding);
         for (const uint32_t t : component) {
-            front_[t] = front;
+            faces_[t].front = front;
         }
     }
 }
@@ -105,16 +135,16 @@ void SurfaceSides::find_components(const WindingNumber& winding) {
 /// Measured on both sides of three faces, the largest among them; unknown unless all agree.
 int SurfaceSides::measured_front(const std::vector<uint32_t>& component, const WindingNumber& winding) const {
     const auto area = [&](uint32_t t) {
-        const auto& [a, b, c] = triangles_[t];
+        const auto& [a, b, c] = faces_[t].corners;
         return glm::length(glm::cross(positions_[b] - positions_[a], positions_[c] - positions_[a]));
     };
     const uint32_t largest = *std::max_element(component.begin(), component.end(),
                                                [&](uint32_t a, uint32_t b) { return area(a) < area(b); });
     int front = unknown;
     for (const uint32_t t : {largest, component.front(), component[component.size() / 2]}) {
-        const auto& [a, b, c] = triangles_[t];
+        const auto& [a, b, c] = faces_[t].corners;
         const Vec3 centre = (positions_[a] + positions_[b] + positions_[c]) / 3.0;
-        const Vec3 step = 1e-4 * std::sqrt(area(t)) * normals_[t];
+        const Vec3 step = 1e-4 * std::sqrt(area(t)) * faces_[t].normal;
         const double before = winding.at(centre + step);
         const double behind = winding.at(centre - step);
         const auto whole = static_cast<int>(std::lround(before));
@@ -133,15 +163,16 @@ void SurfaceSides::find_vertex_normals() {
     std::vector<uint32_t> counts(positions_.size(), 0);
     std::vector<uint32_t> firsts(positions_.size(), no_index);
     std::vector<bool> sound(positions_.size(), true);
-    for (uint32_t t = 0; t < triangles_.size(); ++t) {
+    for (uint32_t t = 0; t < faces_.size(); ++t) {
+        const Face& face = faces_[t];
         for (int i = 0; i < 3; ++i) {
-            const uint32_t v = triangles_[t][i];
-            const Vec3 to_next = positions_[triangles_[t][(i + 1) % 3]] - positions_[v];
-            const Vec3 to_last = positions_[triangles_[t][(i + 2) % 3]] - positions_[v];
-            vertex_normals_[v] += angle_between(to_next, to_last) * normals_[t];
+            const uint32_t v = face.corners[i];
+            const Vec3 to_next = positions_[face.corners[(i + 1) % 3]] - positions_[v];
+            const Vec3 to_last = positions_[face.corners[(i + 2) % 3]] - positions_[v];
+            vertex_normals_[v] += angle_between(to_next, to_last) * face.normal;
             ++counts[v];
             firsts[v] = t;
-            sound[v] = sound[v] && sound_[t];
+            sound[v] = sound[v] && face.sound;
         }
     }
     for (uint32_t v = 0; v < positions_.size(); ++v) {
@@ -155,10 +186,10 @@ bool SurfaceSides::fan_is_whole(uint32_t first_triangle, uint32_t vertex, size_t
     uint32_t t = first_triangle;
     for (size_t turned = 1;; ++turned) {
         uint32_t i = 0;
-        while (triangles_[t][i] != vertex) {
+        while (faces_[t].corners[i] != vertex) {
             ++i;
         }
-        t = neighbours_[3 * t + i];
+        t = faces_[t].neighbours[i];
         if (t == no_index || turned > count) {
             return false;
         }
@@ -168,13 +199,12 @@ bool SurfaceSides::fan_is_whole(uint32_t first_triangle, uint32_t vertex, size_t
     }
 }
 
-std::optional<Vec3> SurfaceSides::normal_at(const ClosestPoint& closest) const {
-    const uint32_t t = closest.triangle;
+std::optional<Vec3> SurfaceSides::normal_at(const Face& face, const Vec3& barycentric) const {
     int zeros = 0;
     int corner = 0; // one with weight
     int free = 0;   // one without
     for (int i = 0; i < 3; ++i) {
-        if (closest.barycentric[i] == 0) {
+        if (barycentric[i] == 0) {
             ++zeros;
             free = i;
         } else {
@@ -182,21 +212,23 @@ std::optional<Vec3> SurfaceSides::normal_at(const ClosestPoint& closest) const {
         }
     }
     if (zeros == 0) {
-        return normals_[t];
+        return face.normal;
     }
     if (zeros == 2) {
-        const Vec3& normal = vertex_normals_[triangles_[t][corner]];
+        const Vec3& normal = vertex_normals_[face.corners[corner]];
         return normal != Vec3(0) ? std::optional(normal) : std::nullopt;
     }
-    const uint32_t other = neighbours_[3 * t + (free + 1) % 3];
-    return other != no_index && sound_[other] ? std::optional(normals_[t] + normals_[other]) : std::nullopt;
+    const uint32_t other = face.neighbours[(free + 1) % 3];
+    return other != no_index && faces_[other].sound ? std::optional(face.normal + faces_[other].normal)
+                                                    : std::nullopt;
 }
 
 std::optional<int> SurfaceSides::winding(const Vec3& p, const ClosestPoint& closest) const {
-    if (front_[closest.triangle] == unknown) {
+    const Face& face = faces_[slots_[closest.triangle]];
+    if (face.front == unknown) {
         return std::nullopt;
     }
-    const std::optional<Vec3> normal = normal_at(closest);
+    const std::optional<Vec3> normal = normal_at(face, closest.barycentric);
     if (!normal) {
         return std::nullopt;
     }
@@ -205,7 +237,7 @@ std::optional<int> SurfaceSides::winding(const Vec3& p, const ClosestPoint& clos
     if (!(std::abs(height) > clearly * glm::length(arm) * glm::length(*normal))) {
         return std::nullopt;
     }
-    return front_[closest.triangle] + (height < 0 ? 1 : 0);
+    return face.front + (height < 0 ? 1 : 0);
 }
 
 } // namespace anvil

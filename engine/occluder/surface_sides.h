@@ -26,25 +26,46 @@ class SurfaceSides {
     /// Winding number at p, `closest` being the surface's closest point to it.
     std::optional<int> winding(const Vec3& p, const ClosestPoint& closest) const;
 
+    /// Has the processor fetch what winding() will ask for, if anything was found.
+    void prefetch(const ClosestPoint& closest) const {
+        if (closest.found()) {
+            __builtin_prefetch(&faces_[slots_[closest.triangle]]);
+        }
+    }
+
     bool closed() const { return closed_; }
     size_t crossing_triangles() const { return crossing_; }
 
   private:
     static constexpr int unknown = 1 << 20;
 
+    template <class Visit>
+    void each_edge(const Visit& visit) const;
     void join_edges();
+    void join(uint32_t edge, uint32_t other);
     void find_components(const WindingNumber& winding);
     int measured_front(const std::vector<uint32_t>& component, const WindingNumber& winding) const;
     void find_vertex_normals();
     bool fan_is_whole(uint32_t first_triangle, uint32_t vertex, size_t count) const;
-    std::optional<Vec3> normal_at(const ClosestPoint& closest) const;
 
-    std::vector<Vec3> positions_;
-    std::vector<Triangle> triangles_;  ///< of the lowest equal vertices
-    std::vector<Vec3> normals_;        ///< of the triangles, unit; zero without area
-    std::vector<uint32_t> neighbours_; ///< across edge i of triangle t, from corner i to i + 1, at 3t + i
-    std::vector<bool> sound_;          ///< triangles
-    std::vector<int> front_;           ///< winding number before each triangle, or unknown
+    /// All that is asked of a triangle, side by side, and triangles in the order of the tree: what is asked
+    /// for nearby points lies together.
+    struct alignas(64) Face {
+        Vec3 normal{0};     ///< unit; zero without area
+        Triangle corners{}; ///< in positions_
+        std::array<uint32_t, 3> neighbours{no_index, no_index,
+                                           no_index}; ///< across the edge from corner i on
+        int front = unknown;                          ///< winding number before it
+        bool sound = true;
+    };
+
+    void add_face(const Triangle& t, std::span<const Vec3> positions, std::vector<uint32_t>& numbers,
+                  Crossing crossing);
+    std::optional<Vec3> normal_at(const Face& face, const Vec3& barycentric) const;
+
+    std::vector<uint32_t> slots_; ///< of the triangles in faces_
+    std::vector<Face> faces_;
+    std::vector<Vec3> positions_;      ///< no two are equal; as the faces use them
     std::vector<Vec3> vertex_normals_; ///< zero where they do not tell
     bool closed_ = true;
     size_t crossing_ = 0;

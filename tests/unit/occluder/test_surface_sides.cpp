@@ -7,6 +7,7 @@
 #include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
+#include <numeric>
 
 using namespace anvil;
 using test::random_in;
@@ -73,6 +74,57 @@ Told told_by_faces(const Mesh& mesh, size_t count) {
 
 std::vector<Crossing> crossings(const Mesh& mesh) {
     return find_crossings(mesh.positions, mesh.triangles, SearchTree(mesh.positions, mesh.triangles));
+}
+
+/// Corners in small whole numbers, which doubles compute with exactly.
+using Corners = std::array<Vec3, 3>;
+
+bool is_corner(const Vec3& p, const Corners& of) {
+    return std::find(of.begin(), of.end(), p) != of.end();
+}
+
+enum class Parting {
+    none,
+    touching, ///< nothing of one lies beyond all of the other
+    clear     ///< nor do they touch, but in common corners and the edge between these
+};
+
+Parting parting(const Vec3& axis, const Corners& a, const Corners& b) {
+    auto result = Parting::clear;
+    for (const Vec3& p : a) {
+        for (const Vec3& q : b) {
+            const double gap = glm::dot(axis, q - p);
+            const bool common = is_corner(p, b) && is_corner(q, a);
+            const Parting here = gap > 0 || (gap == 0 && common) ? Parting::clear
+                                 : gap == 0                      ? Parting::touching
+                                                                 : Parting::none;
+            result = std::min(result, here);
+        }
+    }
+    return result;
+}
+
+/// By the axes that are enough for convex bodies: across faces, and across an edge of each.
+Parting parting(const Corners& a, const Corners& b) {
+    std::vector<Vec3> axes;
+    const auto edge = [](const Corners& t, int i) { return t[(i + 1) % 3] - t[i]; };
+    for (const Corners& t : {a, b}) {
+        const Vec3 normal = glm::cross(edge(t, 0), edge(t, 1));
+        axes.push_back(normal);
+        for (int i = 0; i < 3; ++i) {
+            axes.push_back(glm::cross(normal, edge(t, i)));
+            for (int j = 0; j < 3; ++j) {
+                axes.push_back(glm::cross(edge(a, i), edge(b, j)));
+            }
+        }
+    }
+    auto best = Parting::none;
+    for (const Vec3& axis : axes) {
+        if (axis != Vec3(0)) {
+            best = std::max({best, parting(axis, a, b), parting(-axis, a, b)});
+        }
+    }
+    return best;
 }
 
 std::string warnings_of(const Mesh& mesh) {
@@ -158,6 +210,56 @@ TEST_CASE("two triangles cross, touch or miss each other") {
     CHECK(of({0, 1, 2}, {0, 1, 2}) == Crossing::unsure);
     CHECK(of({0, 1, 2}, {0, 4, 5}) == Crossing::none); // a common corner
     CHECK(of({0, 1, 2}, {7, 4, 5}) == Crossing::none);
+}
+
+TEST_CASE("of any two triangles those that meet are found, and those that a plane parts are not") {
+    std::mt19937 random(6);
+    size_t parted = 0;
+    size_t meeting = 0;
+    for (uint32_t round = 0; round < 30000; ++round) {
+        std::vector<Vec3> positions(6);
+        for (Vec3& p : positions) {
+            p = Vec3(random() % 6, random() % 6, random() % 6);
+        }
+        std::vector<Triangle> both{{0, 1, 2}, {3, 4, 5}};
+        for (uint32_t shared = 0; shared < round % 3; ++shared) {
+            positions[3 + shared] = positions[2 * shared];
+            both[1][shared] = 2 * shared;
+        }
+        const Corners a{positions[0], positions[1], positions[2]};
+        const Corners b{positions[3], positions[4], positions[5]};
+        const bool flat = glm::cross(a[1] - a[0], a[2] - a[0]) == Vec3(0) ||
+                          glm::cross(b[1] - b[0], b[2] - b[0]) == Vec3(0);
+        const auto common = std::count_if(a.begin(), a.end(), [&](const Vec3& p) { return is_corner(p, b); });
+        if (flat || common != round % 3) {
+            continue;
+        }
+        const std::vector<Crossing> found = find_crossings(positions, both, SearchTree(positions, both));
+        REQUIRE(found[0] == found[1]);
+        const Parting truth = parting(a, b);
+        if (truth != Parting::touching) {
+            parted += truth == Parting::clear ? 1 : 0;
+            meeting += truth == Parting::none ? 1 : 0;
+            REQUIRE((found[0] == Crossing::none) == (truth == Parting::clear));
+        }
+    }
+    CHECK(parted > 5000);
+    CHECK(meeting > 1000);
+}
+
+TEST_CASE("which triangles cross does not depend on their numbers") {
+    const Mesh mesh = overlapping_balls();
+    const std::vector<Crossing> found = crossings(mesh);
+    std::vector<uint32_t> order(mesh.triangles.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::shuffle(order.begin(), order.end(), std::mt19937(4));
+    Mesh shuffled = mesh;
+    std::transform(order.begin(), order.end(), shuffled.triangles.begin(),
+                   [&](uint32_t t) { return mesh.triangles[t]; });
+    const std::vector<Crossing> again = crossings(shuffled);
+    for (size_t i = 0; i < order.size(); ++i) {
+        CHECK(again[i] == found[order[i]]);
+    }
 }
 
 TEST_CASE("distances traced along a path are those asked one by one") {
