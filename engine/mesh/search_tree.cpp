@@ -1,12 +1,14 @@
 #include "engine/mesh/search_tree.h"
 
 #include <array>
+#include <iterator>
 
 namespace anvil {
 
 namespace {
 
 constexpr int bin_count = 16;
+constexpr double least_square = 1e-200; // of lengths that are divided by, far from underflow
 
 double dot2(const Vec3& v) {
     return glm::dot(v, v);
@@ -75,6 +77,14 @@ Candidate nearest(const Vec3& ap, const Vec3& ab, const Vec3& ac) {
 
 double box_distance2(const Box& box, const Vec3& p) {
     return dot2(glm::max(glm::max(box.low - p, p - box.high), Vec3(0)));
+}
+
+/// Makes [begin, wanted) the first few items in this order, if there are any.
+template <class Iterator, class Before>
+void bring_forward(Iterator begin, Iterator wanted, Iterator end, const Before& before) {
+    for (; begin < wanted; ++begin) {
+        std::iter_swap(begin, std::min_element(begin, end, before));
+    }
 }
 
 /// Half the surface area; only its ratios matter.
@@ -183,12 +193,12 @@ void SearchTree::fit_box(Leaf& leaf, std::span<const Corners> triangles) const {
             longest = dot2(side) > dot2(longest) ? side : longest;
         }
     }
-    const auto unit = [](const Vec3& v, const Vec3& otherwise) {
-        return dot2(v) > 0 ? v / glm::length(v) : otherwise;
-    };
-    const Vec3 z = unit(normal, Vec3(0, 0, 1));
+    // What is left of cancelled normals points anywhere, along the longest side too.
+    const Vec3 z = dot2(normal) > least_square ? glm::normalize(normal) : Vec3(0, 0, 1);
     const Vec3 across = std::abs(z.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
-    const Vec3 x = unit(longest - glm::dot(longest, z) * z, glm::normalize(glm::cross(z, across)));
+    const Vec3 along = longest - glm::dot(longest, z) * z;
+    const bool slants = dot2(along) > std::max(1e-6 * dot2(longest), least_square);
+    const Vec3 x = glm::normalize(slants ? along : glm::cross(z, across));
     leaf.axes = {glm::vec3(x), glm::vec3(glm::cross(z, x)), glm::vec3(z)};
     const Vec3 origin = triangles.front().a;
     Box box;
@@ -236,7 +246,13 @@ size_t SearchTree::split(std::span<Item> items, int depth) {
     const Vec3 extent = centres.high - centres.low;
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
     const double scale = bin_count / extent[axis];
-    size_t middle = items.size() / 2;
+    const auto before = [axis](const Item& a, const Item& b) {
+        return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.triangle < b.triangle;
+    };
+    const auto whole = [&](size_t middle) {
+        return std::clamp((middle + leaf_size / 2) / leaf_size * leaf_size, leaf_size,
+                          (items.size() - 1) / leaf_size * leaf_size);
+    };
     if (depth < balanced_depth && std::isfinite(scale)) {
         const auto bin_of = [&](const Item& item) {
             return std::min(static_cast<int>((item.centre[axis] - centres.low[axis]) * scale), bin_count - 1);
@@ -250,16 +266,17 @@ size_t SearchTree::split(std::span<Item> items, int depth) {
         if (const int cut = best_cut(bins)) {
             const auto second = std::partition(items.begin(), items.end(),
                                                [&](const Item& item) { return bin_of(item) < cut; });
-            middle = static_cast<size_t>(second - items.begin());
+            const size_t middle = whole(static_cast<size_t>(second - items.begin()));
+            const auto wanted = items.begin() + static_cast<std::ptrdiff_t>(middle);
+            const auto after = [&](const Item& a, const Item& b) { return before(b, a); };
+            bring_forward(std::make_reverse_iterator(second), std::make_reverse_iterator(wanted),
+                          items.rend(), after);
+            bring_forward(second, wanted, items.end(), before);
+            return middle;
         }
     }
-    middle = std::clamp((middle + leaf_size / 2) / leaf_size * leaf_size, leaf_size,
-                        (items.size() - 1) / leaf_size * leaf_size);
-    std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(middle), items.end(),
-                     [axis](const Item& a, const Item& b) {
-                         return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis]
-                                                                 : a.triangle < b.triangle;
-                     });
+    const size_t middle = whole(items.size() / 2);
+    std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(middle), items.end(), before);
     return middle;
 }
 

@@ -28,59 +28,76 @@ WindingNumber::WindingNumber(std::span<const Vec3> positions, std::span<const Tr
     for (const Triangle& t : triangles) {
         triangles_.push_back({positions[t[0]], positions[t[1]], positions[t[2]]});
     }
-    if (!triangles_.empty()) {
-        nodes_.reserve(2 * triangles_.size() / leaf_size + 2);
-        build(0, static_cast<uint32_t>(triangles_.size()));
-    }
-}
-
-uint32_t WindingNumber::build(uint32_t first, uint32_t count) {
-    const auto index = static_cast<uint32_t>(nodes_.size());
-    nodes_.emplace_back();
-    nodes_[index].first = first;
-    nodes_[index].count = count;
-    measure(nodes_[index]);
-    if (count > leaf_size) {
-        Box box;
-        for (uint32_t i = first; i < first + count; ++i) {
-            box.include(triangles_[i].a + triangles_[i].b + triangles_[i].c);
-        }
-        const Vec3 extent = box.high - box.low;
-        const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-        const auto begin = triangles_.begin() + first;
-        std::nth_element(begin, begin + count / 2, begin + count, [axis](const Corners& s, const Corners& t) {
-            return s.a[axis] + s.b[axis] + s.c[axis] < t.a[axis] + t.b[axis] + t.c[axis];
-        });
-        build(first, count / 2);
-        const uint32_t right = build(first + count / 2, count - count / 2);
-        nodes_[index].right = right;
-    }
-    return index;
+    root_.count = static_cast<uint32_t>(triangles_.size());
+    measure(root_);
 }
 
 void WindingNumber::measure(Node& node) const {
+    const std::span<const Corners> triangles(triangles_.data() + node.first, node.count);
     double total = 0;
-    Vec3 plain(0);
-    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
-        const auto& [a, b, c] = triangles_[i];
+    for (const auto& [a, b, c] : triangles) {
         const Vec3 area = 0.5 * glm::cross(b - a, c - a);
         const double size = glm::length(area);
         node.centre += size * (a + b + c) / 3.0;
-        plain += (a + b + c) / (3.0 * node.count);
         node.area += area;
         total += size;
     }
-    node.centre = total > 0 ? node.centre / total : plain;
-    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
-        const auto& [a, b, c] = triangles_[i];
+    if (total > 0) {
+        node.centre /= total;
+    } else {
+        node.centre = Vec3(0);
+        for (const auto& [a, b, c] : triangles) {
+            node.centre += (a + b + c) / (3.0 * node.count);
+        }
+    }
+    double reach2 = 0;
+    for (const auto& [a, b, c] : triangles) {
         const Vec3 area = 0.5 * glm::cross(b - a, c - a);
         const Vec3 arm = (a + b + c) / 3.0 - node.centre;
         for (int k = 0; k < 3; ++k) {
             node.moment[k] += arm[k] * area;
-            const Vec3& corner = k == 0 ? a : k == 1 ? b : c;
-            node.reach = std::max(node.reach, glm::length(corner - node.centre));
+        }
+        for (const Vec3& corner : {a, b, c}) {
+            const Vec3 to_corner = corner - node.centre;
+            reach2 = std::max(reach2, glm::dot(to_corner, to_corner));
         }
     }
+    node.reach = std::sqrt(reach2);
+}
+
+/// Of a node that is no leaf.
+const WindingNumber::Children& WindingNumber::children(const Node& node) const {
+    if (const Children* known = node.children.load(std::memory_order_acquire)) {
+        return *known;
+    }
+    const std::lock_guard lock(growing_);
+    const Children* known = node.children.load(std::memory_order_relaxed);
+    return known != nullptr ? *known : split(node);
+}
+
+const WindingNumber::Children& WindingNumber::split(const Node& node) const {
+    const std::span<Corners> triangles(triangles_.data() + node.first, node.count);
+    Box box;
+    for (const Corners& t : triangles) {
+        box.include(t.a + t.b + t.c);
+    }
+    const Vec3 extent = box.high - box.low;
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    const uint32_t middle = node.count / 2;
+    std::nth_element(triangles.begin(), triangles.begin() + middle, triangles.end(),
+                     [axis](const Corners& s, const Corners& t) {
+                         return s.a[axis] + s.b[axis] + s.c[axis] < t.a[axis] + t.b[axis] + t.c[axis];
+                     });
+    Children& children = grown_.emplace_back();
+    children[0].first = node.first;
+    children[0].count = middle;
+    children[1].first = node.first + middle;
+    children[1].count = node.count - middle;
+    for (Node& child : children) {
+        measure(child);
+    }
+    node.children.store(&children, std::memory_order_release);
+    return children;
 }
 
 double WindingNumber::far_field(const Node& node, const Vec3& arm, double distance) {
@@ -91,23 +108,23 @@ double WindingNumber::far_field(const Node& node, const Vec3& arm, double distan
 }
 
 double WindingNumber::at(const Vec3& p) const {
-    if (nodes_.empty()) {
+    if (triangles_.empty()) {
         return 0;
     }
     double sum = 0;
-    uint32_t stack[64];
+    std::array<const Node*, 64> stack;
     size_t top = 0;
-    stack[top++] = 0;
+    stack[top++] = &root_;
     while (top > 0) {
-        const uint32_t index = stack[--top];
-        const Node& node = nodes_[index];
+        const Node& node = *stack[--top];
         const Vec3 arm = node.centre - p;
         const double distance = glm::length(arm);
         if (distance > far_reaches * node.reach) {
             sum += far_field(node, arm, distance);
-        } else if (node.right != 0) {
-            stack[top++] = node.right;
-            stack[top++] = index + 1;
+        } else if (node.count > leaf_size) {
+            const Children& both = children(node);
+            stack[top++] = &both[1];
+            stack[top++] = &both[0];
         } else {
             for (uint32_t i = node.first; i < node.first + node.count; ++i) {
                 sum += solid_angle(triangles_[i].a - p, triangles_[i].b - p, triangles_[i].c - p);

@@ -4,6 +4,10 @@
 
 #include "engine/core/types.h"
 
+#include <array>
+#include <atomic>
+#include <deque>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -12,7 +16,8 @@ namespace anvil {
 /// Generalized winding number of triangles (Jacobson, Kavan, Sorkine-Hornung 2013): 1 inside and 0 outside a
 /// closed surface oriented outwards, -1 inside one oriented inwards, in between near holes. Far triangles are
 /// summed by a tree of dipoles with their first derivative (after Barill et al. 2018): off by under 0.01.
-/// Built once, used const, from any number of threads.
+/// The tree grows where it is asked: where faces tell the side it is hardly needed. Const, and used from any
+/// number of threads; what it answers depends on the triangles alone.
 class WindingNumber {
   public:
     /// `triangles` index `positions`, all finite. Triangles without area count nothing.
@@ -24,6 +29,8 @@ class WindingNumber {
     struct Corners {
         Vec3 a, b, c;
     };
+    struct Node;
+    using Children = std::array<Node, 2>;
     /// Moments of the triangles below: area-weighted centre, vector area, first moment of the vector area.
     struct Node {
         Vec3 centre{0};
@@ -32,15 +39,19 @@ class WindingNumber {
         double reach = 0;     ///< of the farthest corner from the centre
         uint32_t first = 0;   ///< triangles [first, first + count)
         uint32_t count = 0;
-        uint32_t right = 0; ///< second child; the first one follows its parent. 0: a leaf
+        mutable std::atomic<const Children*> children{
+            nullptr}; ///< until they are wanted, and of leaves: none
     };
 
-    uint32_t build(uint32_t first, uint32_t count);
     void measure(Node& node) const;
+    const Children& children(const Node& node) const;
+    const Children& split(const Node& node) const;
     static double far_field(const Node& node, const Vec3& arm, double distance);
 
-    std::vector<Corners> triangles_;
-    std::vector<Node> nodes_;
+    Node root_;
+    mutable std::mutex growing_;
+    mutable std::vector<Corners> triangles_; ///< those of nodes without children are in no order
+    mutable std::deque<Children> grown_;
 };
 
 } // namespace anvil

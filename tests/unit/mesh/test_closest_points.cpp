@@ -151,6 +151,26 @@ TEST_CASE("many queries at once: one triangle among a thousand times smaller one
     check_found(soup, lattice(Vec3(20, 20, -8), 2, 6));
 }
 
+TEST_CASE("many queries at once: four triangles whose mean normal runs along their longest side") {
+    // What is left of that side across the normal is rounding, of the size of all: of how many there are.
+    // Each four are a leaf of the tree, and so is what else lies near them.
+    for (int count = 3; count < 20; ++count) {
+        Soup soup;
+        for (int i = 0; i < count; ++i) {
+            const Vec3 at(8 * i, 0, 0);
+            soup.add(at + Vec3(0, 2, 0), at + Vec3(0, 1, 0), at + Vec3(1, 2, 0));
+            soup.add(at + Vec3(1, 1, 0), at + Vec3(1, 2, 0), at + Vec3(0, 1, 0));
+            soup.add(at + Vec3(0, 0, 1), at + Vec3(0, 0, 0), at + Vec3(1, 0, 1));
+            soup.add(at + Vec3(0, 1, 0), at + Vec3(1, 0, 1), at + Vec3(0, 0, 0));
+            for (int j = 0; j < 4; ++j) {
+                const Vec3 beside = at + Vec3(3, 0.4 * j, 0);
+                soup.add(beside, beside + Vec3(0, 0.3, 0), beside + Vec3(0, 0, 0.3));
+            }
+        }
+        check_found(soup, lattice(Vec3(-2.1, -2, -2), 0.43, 12));
+    }
+}
+
 TEST_CASE("many queries at once: distances scale with what they are between, and keep when all is far away") {
     const Soup soup = random_soup(600, 5);
     const std::vector<Vec3> queries = lattice(Vec3(-0.2), 0.06, 7);

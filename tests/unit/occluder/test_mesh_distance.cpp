@@ -1,4 +1,5 @@
 #include "engine/core/error.h"
+#include "engine/core/parallel_for.h"
 #include "engine/mesh/mesh_writer.h"
 #include "engine/mesh/sample_shapes.h"
 #include "engine/occluder/mesh_distance.h"
@@ -52,6 +53,28 @@ TEST_CASE("the winding number is the sum of all solid angles, one inside and non
             CHECK(winding.at(p) == Approx(tube < 0 ? 1 : 0).margin(0.01));
         }
     }
+}
+
+TEST_CASE("the winding number is the same to the bit whoever asks first, and of nothing it is none") {
+    const Mesh mesh = make_sample("bust", 3000);
+    const WindingNumber one_by_one(mesh.positions, mesh.triangles);
+    const WindingNumber at_once(mesh.positions, mesh.triangles);
+    std::mt19937 random(4);
+    std::vector<Vec3> points(4000);
+    for (Vec3& p : points) {
+        p = random_in(random, Vec3(-1), Vec3(1));
+    }
+    std::vector<double> found(points.size());
+    parallel_for(points.size(), 10, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            found[i] = at_once.at(points[i]);
+        }
+    });
+    for (size_t i = points.size(); i-- > 0;) {
+        CHECK(found[i] == one_by_one.at(points[i]));
+    }
+    CHECK(WindingNumber({}, {}).at(Vec3(0)) == 0);
+    CHECK(WindingNumber({}, {}).at(Vec3(1)) == 0);
 }
 
 TEST_CASE("the distance to a fine sphere mesh is that to the sphere, with its normal") {
