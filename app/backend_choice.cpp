@@ -27,20 +27,34 @@ std::vector<DeviceInfo> devices_or_none(Log& log) {
     }
 }
 
-ChosenBackend open_backend(const std::string& device, DeviceBaking baking) {
+DeviceBaking device_baking(const std::string& name) {
+    if (name == "device") {
+        return DeviceBaking::always;
+    }
+    return name == "cpu" ? DeviceBaking::never : DeviceBaking::on_gpus;
+}
+
+void check_baking(DeviceBaking baking, bool device) {
+    if (baking == DeviceBaking::always && !device) {
+        throw InputError("--bake device: the edits are computed without a Vulkan device here; name one by "
+                         "--device (see anvil devices)");
+    }
+}
+
+ChosenBackend open_backend(const std::string& device, DeviceBaking baking, Log* log) {
     if (device == "cpu") {
         return {make_cpu_backend(), nullptr};
     }
     DeviceOptions options;
     options.choice = device;
     auto opened = std::make_shared<Device>(options);
-    auto backend = make_gpu_backend(opened, {.baking = baking});
+    auto backend = make_gpu_backend(opened, {.baking = baking, .log = log});
     return {std::move(backend), std::move(opened)};
 }
 
 ChosenBackend open_lasting(const std::string& device, Log& log, DeviceBaking baking) {
     try {
-        ChosenBackend opened = open_backend(device, baking);
+        ChosenBackend opened = open_backend(device, baking, baking == DeviceBaking::always ? &log : nullptr);
         opened.backend = std::make_unique<LastingBackend>(std::move(opened.backend), log);
         return opened;
     } catch (const DeviceError& error) {
@@ -51,7 +65,7 @@ ChosenBackend open_lasting(const std::string& device, Log& log, DeviceBaking bak
 
 ChosenBackend choose_backend(const std::string& device, Log& log, DeviceBaking baking) {
     if (device != "auto") {
-        return open_backend(device, baking);
+        return open_backend(device, baking, &log);
     }
     const std::optional<size_t> chosen = automatic_device(devices_or_none(log));
     if (!chosen) {
@@ -64,21 +78,21 @@ ChosenSearch choose_search(const std::string& device, Log& log) {
     if (device == "cpu") {
         return {};
     }
-    const auto open = [](const std::string& choice) {
+    const auto open = [](const std::string& choice, Log* told) {
         ChosenSearch chosen;
         chosen.device = std::make_shared<Device>(DeviceOptions{.choice = choice});
-        chosen.search = make_search_device(chosen.device);
+        chosen.search = make_search_device(chosen.device, {.log = told});
         return chosen;
     };
     if (device != "auto") {
-        return open(device);
+        return open(device, &log);
     }
     const std::optional<size_t> gpu = automatic_device(devices_or_none(log));
     if (!gpu) {
         return {};
     }
     try {
-        ChosenSearch chosen = open(std::to_string(*gpu));
+        ChosenSearch chosen = open(std::to_string(*gpu), nullptr);
         chosen.lasting = std::make_unique<LastingSearchDevice>(*chosen.search, log);
         return chosen;
     } catch (const DeviceError& error) {

@@ -13,6 +13,12 @@
 
 namespace anvil {
 
+/// `--bake`: auto, cpu or device.
+DeviceBaking device_baking(const std::string& name);
+
+/// @throws InputError where fields are to be baked on a device and there is none.
+void check_baking(DeviceBaking baking, bool device);
+
 /// A back end and, for Vulkan ones, its device.
 struct ChosenBackend {
     std::unique_ptr<Backend> backend;
@@ -26,9 +32,10 @@ std::optional<size_t> automatic_device(const std::vector<DeviceInfo>& devices);
 /// list_devices(), or none with a warning where there is no Vulkan.
 std::vector<DeviceInfo> devices_or_none(Log& log);
 
-/// `cpu`: the double-precision reference; anything else: a Vulkan device as choose_device() means it.
-/// @throws DeviceError
-ChosenBackend open_backend(const std::string& device, DeviceBaking baking = DeviceBaking::on_gpus);
+/// `cpu`: the double-precision reference; anything else: a Vulkan device as choose_device() means it. `log`,
+/// which outlives it, is told of meshes that are too large to be baked there. @throws DeviceError
+ChosenBackend open_backend(const std::string& device, DeviceBaking baking = DeviceBaking::on_gpus,
+                           Log* log = nullptr);
 
 /// open_backend() of a Vulkan device, with the CPU back end to go on with where the device fails, now or
 /// later: a warning says so.

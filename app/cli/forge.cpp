@@ -48,19 +48,10 @@ OutputPrecision output_precision(const std::string& name) {
     return name == "double" ? OutputPrecision::double_precision : OutputPrecision::automatic;
 }
 
-DeviceBaking device_baking(const std::string& name) {
-    if (name == "device") {
-        return DeviceBaking::always;
-    }
-    return name == "cpu" ? DeviceBaking::never : DeviceBaking::on_gpus;
-}
-
 ChosenBackend chosen_backend(const ForgeArguments& arguments, Log& log) {
-    ChosenBackend chosen = choose_backend(arguments.device, log, device_baking(arguments.bake));
-    if (arguments.bake == "device" && !chosen.device) {
-        throw InputError("--bake device: the edits are computed without a Vulkan device here; name one by "
-                         "--device (see anvil devices)");
-    }
+    const DeviceBaking baking = device_baking(arguments.bake);
+    ChosenBackend chosen = choose_backend(arguments.device, log, baking);
+    check_baking(baking, chosen.device != nullptr);
     return chosen;
 }
 

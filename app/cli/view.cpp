@@ -13,6 +13,8 @@ void add_view(Program& program, CommandContext&) {
     command.option("--screenshot", options->screenshot,
                    "PNG of the window at the script's end, or of the first picture, then leave");
     command.option("--device", options->device, "What deforms: auto, cpu, a device's name or index");
+    command.choice("--bake", options->bake, {"auto", "cpu", "device"},
+                   "Where distance fields are baked; auto: on the device if that is a GPU");
     command.run([options] { run_viewer(*options); });
 }
 

@@ -26,7 +26,7 @@ std::string text_of(const std::exception_ptr& error) {
 
 } // namespace
 
-Session::Session(std::shared_ptr<Device> device, const std::string& choice, Disposer& disposer,
+Session::Session(std::shared_ptr<Device> device, const WorkDevice& choice, Disposer& disposer,
                  std::function<void()> changed)
     : device_(std::move(device)), disposer_(disposer), bench_(std::make_unique<Workbench>(device_, choice)),
       mirror_plane_(device_->state()),

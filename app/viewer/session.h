@@ -57,7 +57,7 @@ class Session {
   public:
     /// `changed` is called, from any thread, when there is something new to draw; `disposer` gets what is no
     /// longer shown. @throws DeviceError
-    Session(std::shared_ptr<Device> device, const std::string& choice, Disposer& disposer,
+    Session(std::shared_ptr<Device> device, const WorkDevice& choice, Disposer& disposer,
             std::function<void()> changed);
     ~Session();
 

@@ -49,7 +49,8 @@ class Viewer {
            const std::shared_ptr<LostSession>& lost)
         : options_(options), window_(display, first_size, "Anvil"), device_(open_device()),
           ui_(window_, window_.scale()), painter_(*device_, window_, disposer_),
-          session_(device_, options.device, disposer_, [] { Window::wake(); }) {
+          session_(device_, {options.device, device_baking(options.bake)}, disposer_,
+                   [] { Window::wake(); }) {
         session_.view.less_in_motion = painter_.draws_on_cpu();
         session_.camera.unit = window_.scale();
         player_ = player;

@@ -10,6 +10,7 @@ struct ViewerOptions {
     std::string script;     ///< plays this and ends; empty: a person is there
     std::string screenshot; ///< PNG of the last frame, at the end of the script or of the first picture
     std::string device = "auto";
+    std::string bake = "auto"; ///< where distance fields are baked: auto, cpu or device
 };
 
 /// Returns when the window is closed or the script has ended.

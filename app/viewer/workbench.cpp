@@ -15,11 +15,14 @@ constexpr int occluder_cells = 64;
 
 } // namespace
 
-Workbench::Workbench(std::shared_ptr<Device> device, const std::string& choice)
-    : device_(std::move(device)), fields_(user_cache()), autosave_(user_state_folder()),
+Workbench::Workbench(std::shared_ptr<Device> device, const WorkDevice& work)
+    : device_(std::move(device)), baking_(work.baking), fields_(user_cache()), autosave_(user_state_folder()),
       looks_(device_->state()), shown_(std::make_shared<const Shown>()) {
     Progress progress;
-    use_device(choice, progress);
+    use_device(work.choice, progress);
+    if (baking_ == DeviceBaking::always) {
+        check_baking(baking_, backend_->search_device() != nullptr);
+    }
 }
 
 Workbench::~Workbench() = default;
@@ -64,7 +67,9 @@ void Workbench::use_device(const std::string& choice, Progress& progress) {
         const bool same = devices[index].index == device_->info().index;
         // What the drawing device deforms is drawn where it lies.
         next = make_gpu_backend(
-            same ? device_ : std::make_shared<Device>(DeviceOptions{.choice = std::to_string(index)}));
+            same ? device_ : std::make_shared<Device>(DeviceOptions{.choice = std::to_string(index)}),
+            {.baking = baking_,
+             .log = choice == "auto" && baking_ != DeviceBaking::always ? nullptr : &log_});
     }
     const std::optional<Edit> dragged = session_ ? std::optional(previewed_) : std::nullopt;
     session_.reset();

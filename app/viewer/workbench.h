@@ -9,7 +9,7 @@
 #include "engine/document/autosave.h"
 #include "engine/document/document.h"
 #include "engine/forge/drag_session.h"
-#include "engine/gpu/device.h"
+#include "engine/gpu/gpu_backend.h"
 #include "engine/occluder/occluder_set.h"
 
 #include <functional>
@@ -65,10 +65,17 @@ struct Shown {
     std::string driver;
 };
 
+/// What deforms, and where distance fields are baked then.
+struct WorkDevice {
+    std::string choice = "auto"; ///< as of Workbench::use_device()
+    DeviceBaking baking = DeviceBaking::on_gpus;
+};
+
 class Workbench {
   public:
-    /// `device` draws; the same deforms, unless use_device() says otherwise. @throws DeviceError
-    Workbench(std::shared_ptr<Device> device, const std::string& choice);
+    /// `device` draws; the same deforms, unless `work` or use_device() says otherwise. @throws DeviceError;
+    /// InputError where it is to bake and none deforms
+    Workbench(std::shared_ptr<Device> device, const WorkDevice& work);
     ~Workbench();
 
     std::shared_ptr<const Shown> shown() const;
@@ -124,10 +131,11 @@ class Workbench {
     std::shared_ptr<const DrawnRegion> drawn_region();
     void publish(const Shown& next);
 
-    std::shared_ptr<Device> device_;   ///< that draws
+    std::shared_ptr<Device> device_; ///< that draws
+    DeviceBaking baking_;
+    Log log_;
     std::shared_ptr<Backend> backend_; ///< that deforms
     std::optional<FileCache> fields_;  ///< baked ones, between runs
-    Log log_;
     Autosave autosave_;
     std::unique_ptr<Document> document_;
     size_t opening_ = 0;

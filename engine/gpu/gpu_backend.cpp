@@ -7,6 +7,10 @@ namespace anvil {
 
 namespace {
 
+// A window's pictures wait for what the device is at: on lavapipe, some 300,000 points a second are searched:
+// 7 ms.
+constexpr uint64_t slow_search_bytes = uint64_t{64} << 10;
+
 class GpuBackend final : public Backend {
   public:
     GpuBackend(std::shared_ptr<Device> device, const GpuBackendOptions& options)
@@ -24,7 +28,11 @@ class GpuBackend final : public Backend {
                                ? pipeline_->info().type != DeviceType::cpu
                                : options_.baking == DeviceBaking::always;
         if (bakes && !search_) {
-            search_ = make_search_device(device_);
+            SearchDeviceOptions search{.log = options_.log};
+            if (pipeline_->info().type == DeviceType::cpu) {
+                search.chunk_bytes = slow_search_bytes;
+            }
+            search_ = make_search_device(device_, search);
         }
         return search_.get();
     }

@@ -1,6 +1,7 @@
 // The Vulkan back end: the sessions of engine/deform/backend.h on a device.
 #pragma once
 
+#include "engine/core/log.h"
 #include "engine/deform/backend.h"
 #include "engine/gpu/device.h"
 
@@ -17,6 +18,9 @@ struct GpuBackendOptions {
     /// Points are worked in chunks whose buffers take at most this (and what the device binds at once).
     uint64_t chunk_bytes = uint64_t{128} << 20;
     DeviceBaking baking = DeviceBaking::on_gpus;
+    /// Is told of meshes that are too large to be baked here, where that was asked for; outlives the back
+    /// end.
+    Log* log = nullptr;
 };
 
 /// Sessions upload once (float, relative to the input's local origin), submit one command buffer an update,

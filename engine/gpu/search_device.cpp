@@ -78,12 +78,17 @@ class GpuSearchDevice final : public SearchDevice {
         : device_(std::move(device)), kernel_(device_->state(), nearest_triangles_comp,
                                               std::vector<ResourceKind>(4, ResourceKind::storage_buffer),
                                               sizeof(uint32_t), search_workgroup),
-          at_once_(points_at_once(device_->state(), options.chunk_bytes)),
+          at_once_(points_at_once(device_->state(), options.chunk_bytes)), log_(options.log),
           most_bytes_(std::min<uint64_t>(options.tree_bytes, device_->state().limits.maxStorageBufferRange)) {
     }
 
     std::unique_ptr<TriangleSearch> put(const NarrowTree& tree) override {
         const uint64_t bytes = tree.triangles.size() * sizeof(kernel::f32::TreeTriangle); // nodes take less
+        if (bytes > most_bytes_ && log_ != nullptr) {
+            log_->warn("a mesh has more triangles than device \"" + device_->info().name + "\" bakes (" +
+                       std::to_string(most_bytes_ / sizeof(kernel::f32::TreeTriangle)) +
+                       "): its distance field is baked on the CPU, which gives the same one");
+        }
         if (tree.nodes.empty() || bytes > most_bytes_) {
             return nullptr;
         }
@@ -94,6 +99,7 @@ class GpuSearchDevice final : public SearchDevice {
     std::shared_ptr<Device> device_;
     ComputeKernel kernel_;
     uint32_t at_once_;
+    Log* log_;            ///< nullptr: none
     uint64_t most_bytes_; ///< of one buffer
 };
 

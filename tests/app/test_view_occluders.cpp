@@ -19,15 +19,16 @@ class Stage {
     std::string file(const std::string& name) const { return folder_ / name; }
 
     /// Seen from the front, as all scripts here begin.
-    void play(const std::string& script) const {
+    void play(const std::string& script, const std::vector<std::string>& where = {"--device", "cpu"}) const {
         std::ofstream(file("script.txt")) << "window 900 600\nwait\nview front\nframe\n"
                                           << script << "\nwait\n";
         RunLimits limits;
-        limits.environment = {"ANVIL_STATE=off", "ANVIL_DATA=" + file("data")};
+        limits.environment = {"ANVIL_STATE=off", "ANVIL_CACHE=off", "ANVIL_DATA=" + file("data")};
         limits.seconds = 300;
         REQUIRE(std::getenv("DISPLAY") != nullptr); // tests/run gives one; by hand: xvfb-run -a
-        const ProgramRun run =
-            run_anvil({"view", file("hand.ply"), "--script", file("script.txt"), "--device", "cpu"}, limits);
+        std::vector<std::string> arguments{"view", file("hand.ply"), "--script", file("script.txt")};
+        arguments.insert(arguments.end(), where.begin(), where.end());
+        const ProgramRun run = run_anvil(arguments, limits);
         CHECK(run.err.empty());
         REQUIRE(run.status == 0);
     }
@@ -71,6 +72,31 @@ TEST_CASE("A hammer that was recorded by a drag forges the same mesh headless", 
     CHECK_THAT(content_of(stage.file("hammer.json")), Catch::Contains("\"motion\""));
     stage.check_saved("hammer");
     CHECK(content_of(stage.file("hammer.ply")) != content_of(stage.file("hand.ply")));
+}
+
+TEST_CASE("A mesh that becomes an occluder in the window is baked on the device as on the CPU",
+          "[app][view]") {
+    const Stage stage;
+    REQUIRE(run_anvil({"sample", "bust", "-o", stage.file("tool.ply"), "--vertices", "600"}).status == 0);
+    // Seen from the right, a finger is dragged against the bust that stands before it.
+    const auto session = [&](const std::string& name) {
+        return "occluder add tool " + stage.file("tool.ply") +
+               " 1 0.05,0.4,1.2\nwait\noccluder scale tool 0.2\noccluder move tool 0.06,0.7,0.35\nwait\n"
+               "view right\nframe\nradius 0.5\nmove @0.06,0.7,-5\nwait\npress\n"
+               "move @0.06,0.7,-5 -40 0\nwait\nmove @0.06,0.7,-5 -80 0\nwait\nexpect touching yes\n"
+               "release\nwait\nexpect edits 1\nexpect notices 0" +
+               stage.saving(name);
+    };
+    for (const std::string where : {"cpu", "device"}) {
+        stage.play(session(where), {"--device", "0", "--bake", where});
+    }
+    CHECK(content_of(stage.file("device.ply")) == content_of(stage.file("cpu.ply")));
+    CHECK(content_of(stage.file("cpu.ply")) != content_of(stage.file("hand.ply")));
+    RunLimits limits;
+    limits.environment = {"ANVIL_STATE=off"};
+    const ProgramRun nowhere = run_anvil({"view", "--device", "cpu", "--bake", "device"}, limits);
+    CHECK(nowhere.status == 2);
+    CHECK_THAT(nowhere.err, Catch::Contains("--bake device"));
 }
 
 TEST_CASE("A path that is followed, a swelling and refinement are what the recipe says", "[app][view]") {

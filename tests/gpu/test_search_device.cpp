@@ -92,16 +92,26 @@ TEST_CASE("a device bakes the fields that the CPU bakes, signs of damaged meshes
     }
 }
 
-TEST_CASE("a mesh too large for a device is baked without it, and a bake on a device can be cancelled") {
+TEST_CASE(
+    "a mesh too large for a device is baked without it, as a warning says, and a bake can be cancelled") {
     const CheckedDevice device;
     const auto solid = mesh_distance(make_sample("bust", 800));
-    const auto small = make_search_device(device.shared(), {.tree_bytes = 800 * 60});
+    Log log;
+    const auto small = make_search_device(device.shared(), {.tree_bytes = 800 * 60, .log = &log});
     CHECK(solid->tracer_with(*small) == nullptr);
+    REQUIRE(log.warnings.size() == 1);
+    CHECK_THAT(log.warnings.front(),
+               Catch::Contains("more triangles than device \"" + device->info().name +
+                               "\" bakes (800): its distance field is baked on the CPU"));
     Progress progress;
     CHECK(bake_adaptive(*solid, 24, progress, small.get()).words ==
           bake_adaptive(*solid, 24, progress).words);
-    const auto large = make_search_device(device.shared());
+    CHECK(log.warnings.size() == 2);
+    const auto silent = make_search_device(device.shared(), {.tree_bytes = 800 * 60});
+    CHECK(solid->tracer_with(*silent) == nullptr);
+    const auto large = make_search_device(device.shared(), {.log = &log});
     CHECK(solid->tracer_with(*large) != nullptr);
+    CHECK(log.warnings.size() == 2);
     progress.cancel();
     CHECK_THROWS_AS(bake_adaptive(*solid, 24, progress, large.get()), Cancelled);
     CHECK_THROWS_AS(bake(*solid, 24, progress, large.get()), Cancelled);
