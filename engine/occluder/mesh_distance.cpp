@@ -4,6 +4,7 @@
 #include "engine/core/parallel_for.h"
 #include "engine/mesh/closest_points.h"
 #include "engine/mesh/triangle_search.h"
+#include "engine/occluder/face_orientation.h"
 #include "engine/occluder/solid_warnings.h"
 #include "engine/occluder/surface_sides.h"
 #include "engine/occluder/winding_number.h"
@@ -16,9 +17,10 @@ namespace {
 
 class MeshDistance final : public ExactDistance {
   public:
-    explicit MeshDistance(const Mesh& mesh)
-        : triangles_(mesh.triangles), positions_(mesh.positions), tree_(mesh.positions, mesh.triangles),
-          winding_(mesh.positions, mesh.triangles), sides_(mesh.positions, mesh.triangles, tree_, winding_) {
+    MeshDistance(std::span<const Vec3> positions, std::vector<Triangle> triangles)
+        : triangles_(std::move(triangles)), positions_(positions.begin(), positions.end()),
+          tree_(positions_, triangles_), winding_(positions_, triangles_),
+          sides_(positions_, triangles_, tree_, winding_) {
         for (const Triangle& t : triangles_) {
             for (uint32_t v : t) {
                 bounds_.include(positions_[v]);
@@ -35,6 +37,8 @@ class MeshDistance final : public ExactDistance {
     Box bounds() const override { return bounds_; }
 
     size_t crossing_triangles() const { return sides_.crossing_triangles(); }
+    /// Whether a face is flipped, for all that the edges tell.
+    bool turns() const { return sides_.turning_edges() > 0; }
 
   private:
     class Tracer final : public DistanceTracer {
@@ -169,7 +173,11 @@ std::shared_ptr<const ExactDistance> mesh_distance(const Mesh& mesh, Log* log) {
     if (mesh.triangles.empty()) {
         throw InputError("the mesh has no triangle, so there is no solid to be an occluder");
     }
-    auto distance = std::make_shared<MeshDistance>(mesh);
+    auto distance = std::make_shared<MeshDistance>(mesh.positions, mesh.triangles);
+    if (distance->turns()) {
+        distance =
+            std::make_shared<MeshDistance>(mesh.positions, oriented_alike(mesh.positions, mesh.triangles));
+    }
     if (log != nullptr) {
         warn_about_solid(mesh, distance->crossing_triangles(), *log);
     }

@@ -34,6 +34,8 @@ class SurfaceSides {
     }
 
     bool closed() const { return closed_; }
+    /// Edges between two triangles that lie the other way round than each other.
+    size_t turning_edges() const { return turning_; }
     size_t crossing_triangles() const { return crossing_; }
 
   private:
@@ -69,6 +71,7 @@ class SurfaceSides {
     std::vector<Vec3> vertex_normals_; ///< zero where they do not tell
     bool closed_ = true;
     size_t crossing_ = 0;
+    size_t turning_ = 0;
 };
 
 } // namespace anvil
