@@ -2,6 +2,7 @@
 
 #include "engine/mesh/weld.h"
 
+#include <iterator>
 #include <tuple>
 
 namespace anvil {
@@ -109,6 +110,31 @@ class Sides {
 };
 
 } // namespace
+
+std::vector<Triangle> each_once(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+    struct Entry {
+        Triangle corners; ///< the lowest one first
+        uint32_t triangle;
+    };
+    const std::vector<uint32_t> lowest = first_equal(positions);
+    std::vector<Entry> entries;
+    entries.reserve(triangles.size());
+    for (const Triangle& t : triangles) {
+        Triangle corners{lowest[t[0]], lowest[t[1]], lowest[t[2]]};
+        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+        entries.push_back({corners, static_cast<uint32_t>(entries.size())});
+    }
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+        return a.corners != b.corners ? a.corners < b.corners : a.triangle < b.triangle;
+    });
+    const auto end = std::unique(entries.begin(), entries.end(),
+                                 [](const Entry& a, const Entry& b) { return a.corners == b.corners; });
+    std::sort(entries.begin(), end, [](const Entry& a, const Entry& b) { return a.triangle < b.triangle; });
+    std::vector<Triangle> result;
+    std::transform(entries.begin(), end, std::back_inserter(result),
+                   [&](const Entry& entry) { return triangles[entry.triangle]; });
+    return result;
+}
 
 std::vector<Triangle> oriented_alike(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
     const auto neighbours = neighbours_across_edges(sorted_edges(positions, triangles), triangles.size());

@@ -1,4 +1,4 @@
-// Flipped faces of a surface, turned back.
+// Flipped faces of a surface, turned back, and those that are there twice, left out.
 #pragma once
 
 #include "engine/core/types.h"
@@ -13,5 +13,9 @@ namespace anvil {
 /// Surfaces that cannot be oriented, as a Moebius strip, stay as they are. Vertices at equal positions count
 /// as one. O(t log t)
 std::vector<Triangle> oriented_alike(std::span<const Vec3> positions, std::span<const Triangle> triangles);
+
+/// The triangles without those that are there already, with the same corners the same way round. Vertices at
+/// equal positions count as one. O(t log t)
+std::vector<Triangle> each_once(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
 } // namespace anvil

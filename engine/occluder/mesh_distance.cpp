@@ -37,8 +37,8 @@ class MeshDistance final : public ExactDistance {
     Box bounds() const override { return bounds_; }
 
     size_t crossing_triangles() const { return sides_.crossing_triangles(); }
-    /// Whether a face is flipped, for all that the edges tell.
-    bool turns() const { return sides_.turning_edges() > 0; }
+    /// Whether faces may be flipped or there twice.
+    bool tangled() const { return sides_.tangled(); }
 
   private:
     class Tracer final : public DistanceTracer {
@@ -174,9 +174,12 @@ std::shared_ptr<const ExactDistance> mesh_distance(const Mesh& mesh, Log* log) {
         throw InputError("the mesh has no triangle, so there is no solid to be an occluder");
     }
     auto distance = std::make_shared<MeshDistance>(mesh.positions, mesh.triangles);
-    if (distance->turns()) {
-        distance =
-            std::make_shared<MeshDistance>(mesh.positions, oriented_alike(mesh.positions, mesh.triangles));
+    if (distance->tangled()) {
+        const std::vector<Triangle> once = each_once(mesh.positions, mesh.triangles);
+        std::vector<Triangle> mended = oriented_alike(mesh.positions, once);
+        if (mended != mesh.triangles) {
+            distance = std::make_shared<MeshDistance>(mesh.positions, std::move(mended));
+        }
     }
     if (log != nullptr) {
         warn_about_solid(mesh, distance->crossing_triangles(), *log);

@@ -97,7 +97,7 @@ void SurfaceSides::join_edges() {
                 forward += uses[last].forward ? 1 : 0;
             }
             closed_ = closed_ && 2 * forward == last - begin;
-            turning_ += last - begin == 2 && forward != 1 ? 1 : 0;
+            tangled_ = tangled_ || last - begin > 2 || (last - begin == 2 && forward != 1);
             if (last - begin == 2 && forward == 1) {
                 join(uses[begin].edge, uses[begin + 1].edge);
             }

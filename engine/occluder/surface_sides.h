@@ -34,8 +34,9 @@ class SurfaceSides {
     }
 
     bool closed() const { return closed_; }
-    /// Edges between two triangles that lie the other way round than each other.
-    size_t turning_edges() const { return turning_; }
+    /// Whether an edge is that of more than two triangles, or of two that lie the other way round than each
+    /// other.
+    bool tangled() const { return tangled_; }
     size_t crossing_triangles() const { return crossing_; }
 
   private:
@@ -71,7 +72,7 @@ class SurfaceSides {
     std::vector<Vec3> vertex_normals_; ///< zero where they do not tell
     bool closed_ = true;
     size_t crossing_ = 0;
-    size_t turning_ = 0;
+    bool tangled_ = false;
 };
 
 } // namespace anvil

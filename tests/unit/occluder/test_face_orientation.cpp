@@ -77,6 +77,37 @@ TEST_CASE("what is oriented stays: inverted parts, surfaces twice, a Moebius str
     CHECK(oriented_alike({}, {}).empty());
 }
 
+TEST_CASE("a face that is there again, with the same corners or equal ones, is left out") {
+    const Mesh mesh = make_sample("torus", 200);
+    std::vector<Vec3> positions = mesh.positions;
+    std::vector<Triangle> triangles = mesh.triangles;
+    const auto count = static_cast<uint32_t>(positions.size());
+    positions.insert(positions.end(), mesh.positions.begin(), mesh.positions.end());
+    for (const auto& [a, b, c] : mesh.triangles) {
+        triangles.insert(triangles.end(), {Triangle{b, c, a}, Triangle{c + count, a + count, b + count}});
+    }
+    CHECK(each_once(positions, triangles) == mesh.triangles);
+    CHECK(each_once(mesh.positions, mesh.triangles) == mesh.triangles);
+    // The other side of a sheet is another face.
+    const std::vector<Triangle> sheet{{0, 1, 2}, {2, 1, 0}};
+    CHECK(each_once(mesh.positions, sheet) == sheet);
+    CHECK(each_once({}, {}).empty());
+}
+
+TEST_CASE("an open surface that is there twice has the inside that it has alone") {
+    Mesh once = make_sample("icosphere", 642);
+    std::erase_if(once.triangles, [&](const Triangle& t) { return once.positions[t[0]].y > 0.3; });
+    Mesh twice = once;
+    twice.triangles.insert(twice.triangles.end(), once.triangles.begin(), once.triangles.end());
+    const auto truth = mesh_distance(once);
+    const auto solid = mesh_distance(twice);
+    std::mt19937 random(5);
+    for (int i = 0; i < 3000; ++i) {
+        const Vec3 p = random_in(random, Vec3(-1.1), Vec3(1.1));
+        CHECK(solid->at(p).distance == truth->at(p).distance);
+    }
+}
+
 TEST_CASE("a coarse mesh has the inside that it has without its flipped faces, right beside them too") {
     const Mesh whole = make_sample("icosphere", 42);
     Mesh flipped = whole;
