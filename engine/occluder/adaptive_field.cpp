@@ -31,6 +31,7 @@ BrickLayout layout(const Box& box, uint32_t resolution) {
     const int block = 1 << result.top_level;
     result.grid = (result.grid + (block - 1)) / block * block;
     const glm::ivec3 beyond = (result.grid * brick_cells - cells) / 2;
+    result.soft_width = default_soft_width * 0.5 * box.diagonal() / result.voxel;
     result.low = box.centre() - result.voxel * (0.5 * Vec3(cells) + Vec3(beyond));
     return result;
 }

@@ -13,9 +13,10 @@ namespace anvil {
 /// Adaptively sampled signed distance field (Frisken et al. 2000) of a bounded solid, in the occluder's own
 /// space: an octree of bricks over a box, flattened to a table at its finest level. The interpolation error
 /// is kept under adaptive_tolerance(), or the finest level's where that has more; near the surface this holds
-/// at all points of the finest grid, so that contact has one step width everywhere. Where levels meet, the
-/// finer brick's samples are the coarser one's interpolation: the field has no cracks but the rounding to 12
-/// bits.
+/// at all points of the finest grid, so that contact has one step width everywhere. Outside, as far as a soft
+/// influence of default_soft_width acts much, coarse bricks are held by their normals too, since these are
+/// what it pushes along. Where levels meet, the finer brick's samples are the coarser one's interpolation:
+/// the field has no cracks but the rounding to 12 bits.
 ///
 /// A sample (normal and distance) takes one word of 32 bits and is interpolated by the kernels themselves:
 /// formats that textures filter take 6 to 8 bytes for the same, twice the memory that fields should take;
@@ -33,6 +34,9 @@ struct AdaptiveField {
     glm::dvec4 texel(const Vec3& p) const;
     size_t bytes() const { return words.size() * sizeof(uint32_t); }
 };
+
+/// Width of a soft influence that says none, in radii of the occluder's bounding sphere.
+inline constexpr double default_soft_width = 0.05;
 
 /// What the interpolation may be off at a true distance, both in voxels: a little near the surface, then in
 /// proportion, so that the steps that the kernels take by the distance stay safe.

@@ -16,10 +16,16 @@ constexpr double surface_reach = 2;
 // much as in the centre, and farther out by up to twice.
 constexpr double beside_centre = 2;
 constexpr double beside_samples = 1.2;
-// Voxels around the surface where vertices are held and slide: what a coarser brick is off there adds up
-// along their way, to more than the field's tolerance if each brick used that up.
-constexpr double contact_reach = 1.5;
+// Voxels outside and inside the surface where vertices are held and slide: what a coarser brick is off there
+// adds up along their way, to more than the field's tolerance if each brick used that up.
+constexpr double contact_outside = 1.5;
+constexpr double contact_inside = 0.5;
 constexpr double contact_tolerance = 0.01;
+// What normals may be off where a soft influence is at its strongest; farther away by as much more as it is
+// weaker, for one a little narrower than the default. A vertex that it slows all but stands still while the
+// pushes add up: their directions are what its results hang on, far more than how strong they are.
+constexpr double pushing_normal = 0.055;
+constexpr double pushing_width = 0.8;
 
 /// All samples of a cluster are a lattice of this side: four children's.
 constexpr int lattice_side = 4 * brick_cells + 1;
@@ -36,7 +42,8 @@ CellIndex lattice_place(int index) {
 
 /// What a coarser brick may be off where the finest one shows this distance, in voxels.
 double spared_tolerance(double distance) {
-    return std::abs(distance) < contact_reach ? contact_tolerance : adaptive_tolerance(distance);
+    const bool contact = distance > -contact_inside && distance < contact_outside;
+    return contact ? contact_tolerance : adaptive_tolerance(distance);
 }
 
 int octant_of(const CellIndex& cell) {
@@ -235,9 +242,7 @@ void BrickSampler::spare_by_samples() {
 bool BrickSampler::spares_centres(const Brick& parent, const Brick& child) const {
     bool good = true;
     for_centres(child, [&](int at) {
-        const double distance = lattice_[at].w;
-        const double other = parent.interpolated(lattice_cells(at)).w;
-        good = good && beside_centre * std::abs(other - distance) <= spared_tolerance(distance);
+        good = good && is_good(parent.interpolated(lattice_cells(at)), lattice_[at], beside_centre);
     });
     return good;
 }
@@ -260,12 +265,11 @@ void BrickSampler::ask_cells(const Wanted& wanted) {
     }
 }
 
-/// Of test i, in voxels.
-double BrickSampler::error(size_t i) const {
+/// At test i.
+glm::dvec4 BrickSampler::interpolated(size_t i) const {
     const auto& [b, cell] = tests_[i];
     const Brick& brick = cluster_.children[b];
-    const double interpolated = brick.interpolated(cells_at(brick, Vec3(cell) + Vec3(0.5))).w;
-    return std::abs(interpolated - found_[i].distance / layout_.voxel);
+    return brick.interpolated(cells_at(brick, Vec3(cell) + Vec3(0.5)));
 }
 
 void BrickSampler::ask_octants() {
@@ -279,7 +283,7 @@ void BrickSampler::ask_octants() {
 
 void BrickSampler::take_octants() {
     for (size_t i = 0; i < tests_.size(); ++i) {
-        if (beside_centre * error(i) > adaptive_tolerance(found_[i].distance / layout_.voxel)) {
+        if (!is_good(interpolated(i), found_sample(i), beside_centre)) {
             cluster_.children[tests_[i].brick].refined |=
                 static_cast<uint8_t>(1 << octant_of(tests_[i].cell));
         }
@@ -300,19 +304,33 @@ void BrickSampler::ask_surface_errors() {
 void BrickSampler::take_surface_errors() {
     for (size_t i = 0; i < tests_.size(); ++i) {
         double& worst = errors_[tests_[i].brick];
-        worst = std::max(worst, error(i));
+        worst = std::max(worst, std::abs(interpolated(i).w - found_[i].distance / layout_.voxel));
     }
 }
 
-bool BrickSampler::spares(const Brick& coarser, const Brick& brick) {
+bool BrickSampler::spares(const Brick& coarser, const Brick& brick) const {
     for (int i = 0; i < brick_samples; ++i) {
-        const double distance = brick.samples[i].w;
-        const double other = coarser.interpolated(Vec3(brick.origin() + (sample_place(i) << brick.level))).w;
-        if (beside_samples * std::abs(other - distance) > spared_tolerance(distance)) {
+        const Vec3 cells(brick.origin() + (sample_place(i) << brick.level));
+        if (!is_good(coarser.interpolated(cells), brick.samples[i], beside_samples)) {
             return false;
         }
     }
     return true;
+}
+
+bool BrickSampler::is_good(const glm::dvec4& interpolated, const glm::dvec4& truth, double beside) const {
+    if (beside * std::abs(interpolated.w - truth.w) > spared_tolerance(truth.w)) {
+        return false;
+    }
+    const double tolerance = normal_tolerance(truth.w);
+    const double size = glm::length(Vec3(interpolated));
+    return tolerance >= 2 || (size > 0 && glm::length(Vec3(interpolated) / size - Vec3(truth)) <= tolerance);
+}
+
+/// Length of the difference; 2 and more: any. Inside nothing pushes but contact.
+double BrickSampler::normal_tolerance(double distance) const {
+    const double x = distance / (pushing_width * layout_.soft_width);
+    return distance < 0 ? 2 : pushing_normal * std::exp(std::min(x * x, 10.0));
 }
 
 } // namespace anvil

@@ -51,7 +51,11 @@ class BrickSampler {
     enum class Round { centres, samples, tests };
 
     /// Whether the coarser brick interpolates well enough at all of the other's samples.
-    static bool spares(const Brick& coarser, const Brick& brick);
+    bool spares(const Brick& coarser, const Brick& brick) const;
+    /// Whether an interpolated sample is near enough to the true one where the error may be so much larger
+    /// beside it.
+    bool is_good(const glm::dvec4& interpolated, const glm::dvec4& truth, double beside) const;
+    double normal_tolerance(double distance) const;
     bool spares_centres(const Brick& parent, const Brick& child) const;
     bool is_spared(size_t child) const { return !errors_.empty() && errors_[child] < 0; }
     void share_samples();
@@ -76,7 +80,7 @@ class BrickSampler {
     void for_centres(const Brick& child, const Visit& visit) const;
     template <class Wanted>
     void ask_cells(const Wanted& wanted);
-    double error(size_t i) const;
+    glm::dvec4 interpolated(size_t i) const;
 
     const BrickLayout& layout_;
     Cluster cluster_;

@@ -77,7 +77,8 @@ struct BrickLayout {
     Vec3 low{0};
     double voxel = 0;
     glm::ivec3 grid{0};
-    int top_level = 0; ///< of the roots; `grid` is a multiple of 2^top_level
+    int top_level = 0;     ///< of the roots; `grid` is a multiple of 2^top_level
+    double soft_width = 0; ///< that of a soft influence by default, in voxels
 
     Vec3 point(const Vec3& cells) const { return low + voxel * cells; }
 };

@@ -13,8 +13,7 @@ namespace {
 
 namespace k = kernel::f64;
 
-constexpr double steps_across = 128;   // analytic shapes: h = diagonal / 128 (mathematics of contact)
-constexpr double default_sigma = 0.05; // of the bounding radius
+constexpr double steps_across = 128; // analytic shapes: h = diagonal / 128 (mathematics of contact)
 
 template <class Sampled>
 k::ShapeNode sampled_node(uint32_t kind, const Sampled& field) {
@@ -160,7 +159,7 @@ void add_occluder(OccluderSet& set, const OccluderModel& model, const std::strin
     const double size = bounded(model.bounds) ? model.bounds.diagonal() * place.scale : scale.diagonal;
     set_contact(occluder, model, size);
     set_influence(set, occluder, influence,
-                  default_sigma * (bounded(model.bounds) ? 0.5 * size : scale.radius));
+                  default_soft_width * (bounded(model.bounds) ? 0.5 * size : scale.radius));
     set_box(occluder, model.bounds);
 
     const uint32_t first_word = model.field ? add_words(set, model.field) : 0;

@@ -1,16 +1,17 @@
 // Baked distance fields of meshes, dense and adaptive: processor seconds to bake beside those of OpenVDB's
 // meshToVolume, memory, time per step of the deformation, errors at random points, and how far the results of
 // an edit differ.
-//   bench_occluder [--no-dense] [--bake-only] [--points N] [--resolution N ...] MESH or SAMPLE:VERTICES ...
-#include "engine/core/parallel_for.h"
+// Dense fields are also held against a dense one on a grid moved by half a voxel: how far results hang on
+// where the samples happen to lie.
+//   bench_occluder [--no-dense] [--bake-only] [--no-compare] [--influence soft|hard] [--device]
+//                  [--points N] [--pushed N] [--resolution N ...] MESH or SAMPLE:VERTICES ...
+// --no-compare: without OpenVDB. --device: edits on the Vulkan device in place of the CPU in double.
 #include "engine/deform/backend.h"
-#include "engine/occluder/mesh_distance.h"
-#include "engine/occluder/occluder_kernel.h"
-#include "engine/occluder/occluder_set.h"
+#include "tests/bench/baked_field.h"
+#include "tests/bench/bench_backend.h"
 #include "tests/bench/bench_mesh.h"
 
 #include <cstdio>
-#include <ctime>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/MeshToVolume.h>
 #include <random>
@@ -20,112 +21,23 @@ using namespace anvil::bench;
 
 namespace {
 
-/// Processor time of this process, all threads: other work on the machine disturbs it least.
-double seconds() {
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
-
 struct Options {
     bool dense = true;
     bool bake_only = false;
+    bool compare = true;
+    bool device = false;
+    InfluenceKind influence = InfluenceKind::soft;
     size_t points = 1000000;
+    size_t pushed = 100000;
     std::vector<uint32_t> resolutions;
     std::vector<std::string> meshes;
 };
 
-/// A field as the kernels see it.
-struct Baked {
-    OccluderSet set;
-    double voxel = 0;
-    double error = 0;
-    double seconds = 0;
-    double megabytes = 0;
-};
-
-Baked baked(const std::shared_ptr<const ExactDistance>& exact, FieldKind kind, uint32_t resolution,
-            InfluenceKind influence) {
-    Progress progress;
-    const double start = seconds();
-    const OccluderModel model = sampled_model(exact, {kind, resolution}, progress);
-    Baked result;
-    result.seconds = seconds() - start;
-    result.voxel = model.field ? model.field->voxel : model.volumes.front()->voxel;
-    result.error = model.field ? model.field->error : model.volumes.front()->error;
-    result.megabytes =
-        static_cast<double>(model.field ? model.field->bytes()
-                                        : model.volumes.front()->texels.size() * sizeof(float)) /
-        1e6;
-    const double diagonal = exact->bounds().diagonal();
-    add_occluder(result.set, model, "tool", {}, {influence, 0.9, {}, {}, 0},
-                 {Vec3(0), diagonal, 0.5 * diagonal});
-    return result;
-}
-
-struct Sample {
-    Vec3 point;
-    SignedDistance truth;
-};
-
-/// Anywhere in the field's box, as far as it reaches beyond the solid's; no farther from the surface than
-/// `band`.
-std::vector<Sample> random_samples(const ExactDistance& exact, double voxel, size_t count, double band) {
-    const Box box = exact.bounds();
-    const Vec3 margin(3 * voxel);
-    std::mt19937_64 random(7);
-    std::vector<Sample> samples;
-    while (samples.size() < count) {
-        std::vector<Sample> more(100000);
-        for (Sample& s : more) {
-            for (int i = 0; i < 3; ++i) {
-                s.point[i] = std::uniform_real_distribution<double>(box.low[i] - margin[i],
-                                                                    box.high[i] + margin[i])(random);
-            }
-        }
-        parallel_for(more.size(), 256, [&](size_t begin, size_t end) {
-            for (size_t i = begin; i < end; ++i) {
-                more[i].truth = exact.at(more[i].point);
-            }
-        });
-        std::erase_if(more, [&](const Sample& s) { return !(std::abs(s.truth.distance) <= band); });
-        samples.insert(samples.end(), more.begin(), more.end());
-    }
-    samples.resize(count);
-    return samples;
-}
-
-struct Errors {
-    double rms = 0;
-    double worst = 0;
-    size_t beyond = 0;     ///< more than adaptive_tolerance()
-    size_t wrong_sign = 0; ///< where |distance| > voxel / 4
-    double normal_rms = 0; ///< length of the difference
-};
-
-Errors errors_of(const Baked& field, const std::vector<Sample>& samples) {
-    kernel::f64::OccluderKernel kernel{field.set.segments.data(), field.set.nodes.data(),
-                                       field.set.occluders.data(), field.set.volumes.data(),
-                                       field.set.words()};
-    Errors errors;
-    for (const Sample& s : samples) {
-        const auto probe = kernel.occluder_probe(0, s.point);
-        const double error = std::abs(probe.distance - s.truth.distance) / field.voxel;
-        errors.rms += error * error;
-        errors.worst = std::max(errors.worst, error);
-        errors.beyond += error > adaptive_tolerance(s.truth.distance / field.voxel) ? 1 : 0;
-        const bool counts = std::abs(s.truth.distance) > 0.25 * field.voxel;
-        errors.wrong_sign += counts && (probe.distance < 0) != (s.truth.distance < 0) ? 1 : 0;
-        errors.normal_rms += std::pow(glm::length(probe.normal - s.truth.normal), 2);
-    }
-    errors.rms = std::sqrt(errors.rms / static_cast<double>(samples.size()));
-    errors.normal_rms = std::sqrt(errors.normal_rms / static_cast<double>(samples.size()));
-    return errors;
-}
-
 /// Points around the solid, all pushed through it by half its diagonal.
-DeformInput pushed_points(const OccluderSet& set, const Box& box) {
+DeformInput pushed_points(const OccluderSet& set, const Box& box, size_t count) {
     std::mt19937_64 random(8);
     DeformInput input;
-    for (size_t i = 0; i < 100000; ++i) {
+    for (size_t i = 0; i < count; ++i) {
         Vec3 p;
         for (int axis = 0; axis < 3; ++axis) {
             p[axis] = std::uniform_real_distribution<double>(box.low[axis], box.high[axis])(random);
@@ -146,8 +58,8 @@ struct Pushed {
     std::vector<PointResult> results;
 };
 
-Pushed pushed(Backend& backend, const OccluderSet& set, const Box& box) {
-    const DeformInput input = pushed_points(set, box);
+Pushed pushed(Backend& backend, const OccluderSet& set, const Box& box, size_t count) {
+    const DeformInput input = pushed_points(set, box, count);
     DeformMotion motion;
     motion.targets = {0.5 * (box.high - box.low)};
     const auto session = backend.prepare(input);
@@ -178,7 +90,7 @@ std::vector<double> unsteadiness(Backend& backend, const OccluderSet& set, const
     DeformMotion motion;
     motion.targets = {0.5 * (box.high - box.low)};
     for (int direction = 0; direction < 6; ++direction) {
-        DeformInput input = pushed_points(set, box);
+        DeformInput input = pushed_points(set, box, results.size());
         for (Vec3& p : input.points) {
             p[direction / 2] += direction % 2 == 0 ? reach : -reach;
         }
@@ -195,7 +107,8 @@ std::vector<double> unsteadiness(Backend& backend, const OccluderSet& set, const
 
 /// Of what starts outside, and how much of it differs by more than the tolerance and what moving by that much
 /// does to it.
-void print_difference(const Pushed& a, const Pushed& b, const std::vector<double>& unsteady, double voxel) {
+void print_difference(const char* what, const Pushed& a, const Pushed& b, const std::vector<double>& unsteady,
+                      double voxel) {
     std::vector<double> differences;
     size_t beyond = 0;
     for (size_t i = 0; i < a.results.size(); ++i) {
@@ -209,10 +122,10 @@ void print_difference(const Pushed& a, const Pushed& b, const std::vector<double
     std::sort(differences.begin(), differences.end());
     const size_t n = differences.size();
     std::printf(
-        "    dense against adaptive results, voxels: median %.4f, 90 %% %.4f, 99 %% %.3f, worst %.2f; "
+        "    dense results against those of %s, voxels: median %.4f, 90 %% %.4f, 99 %% %.3f, worst %.2f; "
         "farther apart than the tolerance and what it does to the dense ones: %.3f %%; time per "
         "evaluation %.2f x dense\n",
-        differences[n / 2], differences[n * 9 / 10], differences[n * 99 / 100], differences[n - 1],
+        what, differences[n / 2], differences[n * 9 / 10], differences[n * 99 / 100], differences[n - 1],
         100.0 * static_cast<double>(beyond) / static_cast<double>(n), b.nanoseconds / a.nanoseconds);
 }
 
@@ -260,6 +173,22 @@ void compare_bakes(const std::string& name, uint32_t resolution) {
     std::fflush(stdout);
 }
 
+void print_field(const char* kind, const Baked& field, const Baked* dense, const ExactDistance& exact,
+                 size_t points) {
+    const auto percent = [](size_t some, size_t all) {
+        return 100.0 * static_cast<double>(some) / static_cast<double>(all);
+    };
+    const Errors all = errors_of(field, dense, random_samples(exact, field.voxel, points, infinity));
+    const size_t near = points / 10;
+    const Errors band = errors_of(field, dense, random_samples(exact, field.voxel, near, 3 * field.voxel));
+    std::printf("  %-8s bake %7.2f s  %7.2f MB  settle %.3f  band rms %.4f worst %.2f sign %.4f %% normal "
+                "%.3f | all: rms %.3f worst %.2f beyond %.4f %% (and beyond the dense one: %.4f %%) normal "
+                "%.3f\n",
+                kind, field.seconds, field.megabytes, field.error / field.voxel, band.rms, band.worst,
+                percent(band.wrong_sign, near), band.normal_rms, all.rms, all.worst,
+                percent(all.beyond, points), percent(all.worse, points), all.normal_rms);
+}
+
 void measure(const std::string& name, uint32_t resolution, const Options& options) {
     const Mesh mesh = mesh_named(name);
     const double start = seconds();
@@ -267,36 +196,33 @@ void measure(const std::string& name, uint32_t resolution, const Options& option
     const double prepared = seconds() - start;
     std::printf("%s: %zu triangles, %u voxels, prepared in %.2f s\n", name.c_str(), mesh.triangles.size(),
                 resolution, prepared);
-    const auto backend = make_cpu_backend();
-    std::vector<Pushed> results;
+    const auto backend = bench_backend(options.device);
+    const auto push = [&](const Baked& f) {
+        return pushed(*backend, f.set, exact->bounds(), options.pushed);
+    };
+    Baked dense;
+    Pushed reference;
     std::vector<double> unsteady;
-    double voxel = 0;
-    for (const FieldKind kind : {FieldKind::dense, FieldKind::adaptive}) {
-        if (kind == FieldKind::dense && !options.dense) {
-            continue;
-        }
-        const Baked field = baked(exact, kind, resolution, InfluenceKind::soft);
-        voxel = field.voxel;
-        const Errors all = errors_of(field, random_samples(*exact, voxel, options.points, infinity));
-        const Errors band = errors_of(field, random_samples(*exact, voxel, options.points / 10, 3 * voxel));
-        results.push_back(pushed(*backend, field.set, exact->bounds()));
-        if (kind == FieldKind::dense) {
-            unsteady = unsteadiness(*backend, field.set, exact->bounds(), adaptive_tolerance(0) * voxel,
-                                    results.back().results);
-        }
-        std::printf(
-            "  %-8s bake %7.2f s  %7.2f MB  settle %.3f  band rms %.4f worst %.2f sign %.4f %% normal %.3f | "
-            "all: rms %.3f worst %.2f beyond %.4f %%  normal %.3f | %s %.1f ns\n",
-            kind == FieldKind::dense ? "dense" : "adaptive", field.seconds, field.megabytes,
-            field.error / voxel, band.rms, band.worst,
-            100.0 * static_cast<double>(band.wrong_sign) / static_cast<double>(options.points / 10),
-            band.normal_rms, all.rms, all.worst,
-            100.0 * static_cast<double>(all.beyond) / static_cast<double>(options.points), all.normal_rms,
-            backend->device_name().c_str(), results.back().nanoseconds);
+    if (options.dense) {
+        dense = baked(exact, FieldKind::dense, resolution, options.influence);
+        reference = push(dense);
+        print_field("dense", dense, nullptr, *exact, options.points);
+        unsteady = unsteadiness(*backend, dense.set, exact->bounds(), adaptive_tolerance(0) * dense.voxel,
+                                reference.results);
     }
-    if (results.size() == 2) {
-        print_difference(results[0], results[1], unsteady, voxel);
+    const Baked field = baked(exact, FieldKind::adaptive, resolution, options.influence);
+    print_field("adaptive", field, options.dense ? &dense : nullptr, *exact, options.points);
+    const Pushed results = push(field);
+    std::printf("    %s, %s influence: %.1f ns an evaluation\n", backend->device_name().c_str(),
+                options.influence == InfluenceKind::soft ? "soft" : "hard", results.nanoseconds);
+    if (options.dense) {
+        print_difference("the adaptive field", reference, results, unsteady, field.voxel);
+        const Vec3 by(0.5 * field.voxel);
+        const Baked moved = baked(std::make_shared<MovedSolid>(exact, by), FieldKind::dense, resolution,
+                                  options.influence, by);
+        print_difference("a dense field half a voxel beside", reference, push(moved), unsteady, field.voxel);
     }
+    std::fflush(stdout);
 }
 
 Options parse(int count, char** arguments) {
@@ -307,6 +233,15 @@ Options parse(int count, char** arguments) {
             options.dense = false;
         } else if (word == "--bake-only") {
             options.bake_only = true;
+        } else if (word == "--no-compare") {
+            options.compare = false;
+        } else if (word == "--device") {
+            options.device = true;
+        } else if (word == "--influence" && i + 1 < count) {
+            options.influence =
+                std::string(arguments[++i]) == "hard" ? InfluenceKind::hard : InfluenceKind::soft;
+        } else if (word == "--pushed" && i + 1 < count) {
+            options.pushed = std::strtoul(arguments[++i], nullptr, 10);
         } else if (word == "--points" && i + 1 < count) {
             options.points = std::strtoul(arguments[++i], nullptr, 10);
         } else if (word == "--resolution" && i + 1 < count) {
@@ -331,7 +266,9 @@ int main(int count, char** arguments) {
     openvdb::initialize();
     for (const std::string& mesh : options.meshes) {
         for (const uint32_t resolution : options.resolutions) {
-            compare_bakes(mesh, resolution);
+            if (options.compare) {
+                compare_bakes(mesh, resolution);
+            }
             if (!options.bake_only) {
                 measure(mesh, resolution, options);
             }
