@@ -12,7 +12,7 @@ namespace anvil {
 namespace {
 
 /// Raised whenever baking, or the layout of what it makes, changes.
-constexpr const char* baking = "baked field 5\n";
+constexpr const char* baking = "baked field 6\n";
 
 OccluderShape by_content(OccluderShape shape, const SolidSource& source) {
     const auto hash = [&](std::string& file) {
