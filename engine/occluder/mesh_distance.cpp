@@ -5,11 +5,15 @@
 #include "engine/mesh/closest_points.h"
 #include "engine/mesh/triangle_search.h"
 #include "engine/occluder/face_orientation.h"
+#include "engine/occluder/side_anchors.h"
 #include "engine/occluder/solid_warnings.h"
 #include "engine/occluder/surface_sides.h"
 #include "engine/occluder/winding_number.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 
 namespace anvil {
 
@@ -20,7 +24,7 @@ class MeshDistance final : public ExactDistance {
     MeshDistance(std::span<const Vec3> positions, std::vector<Triangle> triangles)
         : triangles_(std::move(triangles)), positions_(positions.begin(), positions.end()),
           tree_(positions_, triangles_), winding_(positions_, triangles_),
-          sides_(positions_, triangles_, tree_, winding_) {
+          sides_(positions_, triangles_, tree_, winding_), boundary_(sides_.take_boundary()) {
         for (const Triangle& t : triangles_) {
             for (uint32_t v : t) {
                 bounds_.include(positions_[v]);
@@ -28,7 +32,14 @@ class MeshDistance final : public ExactDistance {
         }
     }
 
-    SignedDistance at(const Vec3& p) const override { return signed_distance(p, tree_.closest(p)); }
+    SignedDistance at(const Vec3& p) const override {
+        const ClosestPoint closest = tree_.closest(p);
+        if (on_surface(closest)) {
+            return beside_surface(p, closest);
+        }
+        const std::optional<bool> told = told_inside(p, closest);
+        return signed_distance(p, closest, told ? *told : wound_around(p));
+    }
 
     std::unique_ptr<DistanceTracer> tracer() const override { return std::make_unique<Tracer>(*this); }
 
@@ -41,9 +52,41 @@ class MeshDistance final : public ExactDistance {
     bool tangled() const { return sides_.tangled(); }
 
   private:
+    /// Signs the distances of many points, on one thread.
+    class Signer {
+      public:
+        explicit Signer(const MeshDistance& solid)
+            : solid_(solid), anchors_(solid.winding_, solid.boundary_, solid.rounding()) {}
+
+        void sign(std::span<const Vec3> points, std::span<const ClosestPoint> closest,
+                  std::span<SignedDistance> found) {
+            untold_.clear();
+            for (size_t i = 0; i < points.size(); ++i) {
+                if (solid_.on_surface(closest[i])) {
+                    found[i] = solid_.beside_surface(points[i], closest[i]);
+                } else if (const auto told = solid_.told_inside(points[i], closest[i])) {
+                    found[i] = signed_distance(points[i], closest[i], *told);
+                } else {
+                    untold_.emplace_back(-std::ilogb(closest[i].distance), i);
+                }
+            }
+            // The farthest first, as anchors; about as far ones as they come, which is side by side.
+            std::sort(untold_.begin(), untold_.end());
+            for (const auto& [nearness, i] : untold_) {
+                found[i] =
+                    signed_distance(points[i], closest[i], anchors_.inside(points[i], closest[i].distance));
+            }
+        }
+
+      private:
+        const MeshDistance& solid_;
+        SideAnchors anchors_;
+        std::vector<std::pair<int, size_t>> untold_; ///< nearness in octaves, and point
+    };
+
     class Tracer final : public DistanceTracer {
       public:
-        explicit Tracer(const MeshDistance& solid) : solid_(solid), nearest_(solid.tree_) {}
+        explicit Tracer(const MeshDistance& solid) : solid_(solid), nearest_(solid.tree_), signer_(solid) {}
 
         void enter(const Box& box) override { nearest_.enter(box); }
 
@@ -53,40 +96,52 @@ class MeshDistance final : public ExactDistance {
             for (const ClosestPoint& closest : closest_) {
                 solid_.sides_.prefetch(closest);
             }
-            for (size_t i = 0; i < points.size(); ++i) {
-                found[i] = solid_.signed_distance(points[i], closest_[i]);
-            }
+            signer_.sign(points, closest_, found);
         }
 
       private:
         const MeshDistance& solid_;
         ClosestPointTracer nearest_;
+        Signer signer_;
         std::vector<ClosestPoint> closest_;
     };
 
     class DeviceTracer;
 
-    SignedDistance signed_distance(const Vec3& p, const ClosestPoint& closest) const {
-        const Vec3 arm = p - closest.position;
-        if (closest.distance > 1e-9 * bounds_.diagonal()) {
-            const double sign = inside(p, closest) ? -1 : 1;
-            return {sign * closest.distance, sign / closest.distance * arm};
-        }
-        return {inside(p) ? -closest.distance : closest.distance, outward_normal(closest)};
+    /// Too near for the direction to tell anything.
+    bool on_surface(const ClosestPoint& closest) const {
+        return !(closest.distance > 1e-9 * bounds_.diagonal());
+    }
+
+    SignedDistance beside_surface(const Vec3& p, const ClosestPoint& closest) const {
+        const bool inside = !beyond_bounds(p) && wound_around(p);
+        return {inside ? -closest.distance : closest.distance, outward_normal(closest)};
+    }
+
+    static SignedDistance signed_distance(const Vec3& p, const ClosestPoint& closest, bool inside) {
+        const double sign = inside ? -1 : 1;
+        return {sign * closest.distance, sign / closest.distance * (p - closest.position)};
     }
 
     bool beyond_bounds(const Vec3& p) const {
         return glm::any(glm::lessThan(p, bounds_.low)) || glm::any(glm::greaterThan(p, bounds_.high));
     }
 
-    bool inside(const Vec3& p) const { return !beyond_bounds(p) && std::abs(winding_.at(p)) > 0.5; }
+    bool wound_around(const Vec3& p) const { return std::abs(winding_.at(p)) > 0.5; }
 
-    bool inside(const Vec3& p, const ClosestPoint& closest) const {
+    /// Where that takes no winding number.
+    std::optional<bool> told_inside(const Vec3& p, const ClosestPoint& closest) const {
         if (beyond_bounds(p)) {
             return false;
         }
         const std::optional<int> told = sides_.winding(p, closest);
-        return told ? *told != 0 : std::abs(winding_.at(p)) > 0.5;
+        return told ? std::optional(*told != 0) : std::nullopt;
+    }
+
+    /// What the distance to the surface may be off.
+    double rounding() const {
+        const Vec3 far = glm::max(glm::abs(bounds_.low), glm::abs(bounds_.high));
+        return 1e-14 * std::max({far.x, far.y, far.z});
     }
 
     /// The face's normal, on the side that is not inside.
@@ -97,6 +152,7 @@ class MeshDistance final : public ExactDistance {
         const double size = glm::length(area);
         const Vec3 normal = size > 0 ? area / size : Vec3(0, 1, 0);
         const double step = 1e-4 * bounds_.diagonal();
+        const auto inside = [this](const Vec3& p) { return !beyond_bounds(p) && wound_around(p); };
         return inside(closest.position + step * normal) && !inside(closest.position - step * normal) ? -normal
                                                                                                      : normal;
     }
@@ -106,6 +162,7 @@ class MeshDistance final : public ExactDistance {
     SearchTree tree_;
     WindingNumber winding_;
     SurfaceSides sides_;
+    SurfaceBoundary boundary_;
     Box bounds_;
 };
 
@@ -145,13 +202,14 @@ class MeshDistance::DeviceTracer final : public DistanceTracer {
 
     void decide(std::span<const Vec3> points, std::span<const NearSlots> near,
                 std::span<SignedDistance> found) const {
+        std::vector<ClosestPoint> closest(points.size());
         for (size_t i = 0; i < points.size(); ++i) {
             const auto end = std::find(near[i].begin(), near[i].end(), kernel::f32::NO_TRIANGLE);
             const std::span<const uint32_t> slots(near[i].begin(), end);
             const SearchTree& tree = solid_.tree_;
-            found[i] = solid_.signed_distance(points[i], slots.empty() ? tree.closest(points[i])
-                                                                       : tree.closest_of(points[i], slots));
+            closest[i] = slots.empty() ? tree.closest(points[i]) : tree.closest_of(points[i], slots);
         }
+        Signer(solid_).sign(points, closest, found);
     }
 
     const MeshDistance& solid_;

@@ -96,7 +96,11 @@ void SurfaceSides::join_edges() {
             for (; last < end[low] && uses[last].high == uses[begin].high; ++last) {
                 forward += uses[last].forward ? 1 : 0;
             }
-            closed_ = closed_ && 2 * forward == last - begin;
+            if (const size_t backward = last - begin - forward; forward != backward) {
+                closed_ = false;
+                boundary_.push_back({positions_[low], positions_[uses[begin].high],
+                                     std::abs(static_cast<double>(forward) - static_cast<double>(backward))});
+            }
             tangled_ = tangled_ || last - begin > 2 || (last - begin == 2 && forward != 1);
             if (last - begin == 2 && forward == 1) {
                 join(uses[begin].edge, uses[begin + 1].edge);

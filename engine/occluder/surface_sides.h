@@ -4,6 +4,7 @@
 #include "engine/core/types.h"
 #include "engine/mesh/search_tree.h"
 #include "engine/occluder/self_intersection.h"
+#include "engine/occluder/surface_boundary.h"
 #include "engine/occluder/winding_number.h"
 
 #include <optional>
@@ -38,6 +39,8 @@ class SurfaceSides {
     /// other.
     bool tangled() const { return tangled_; }
     size_t crossing_triangles() const { return crossing_; }
+    /// None if closed, and the next time.
+    std::vector<BoundaryEdge> take_boundary() { return std::move(boundary_); }
 
   private:
     static constexpr int unknown = 1 << 20;
@@ -71,6 +74,7 @@ class SurfaceSides {
     std::vector<Vec3> positions_;      ///< no two are equal; as the faces use them
     std::vector<Vec3> vertex_normals_; ///< zero where they do not tell
     bool closed_ = true;
+    std::vector<BoundaryEdge> boundary_;
     size_t crossing_ = 0;
     bool tangled_ = false;
 };
