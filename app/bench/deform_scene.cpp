@@ -1,7 +1,7 @@
 #include "app/bench/deform_scene.h"
 
-#include "engine/distance/numbering.h"
 #include "engine/forge/region_fans.h"
+#include "engine/mesh/place_order.h"
 
 #include <algorithm>
 #include <numbers>

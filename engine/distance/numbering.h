@@ -14,9 +14,6 @@ struct Numbering {
     std::vector<uint32_t> new_triangle; ///< of each triangle of the mesh
 };
 
-/// The indices of points along a curve that fills space (Morton's): neighbours in the list are mostly close.
-std::vector<uint32_t> order_by_place(std::span<const Vec3> points);
-
 /// Vertices by order_by_place(), triangles by their first vertex in that order. Meshes
 /// as files have them jump about: marching over them waits for memory more than half of its time.
 Numbering number_by_place(std::span<const Triangle> triangles, std::span<const Vec3> positions);

@@ -1,8 +1,8 @@
 #include "engine/forge/edit_region.h"
 
 #include "engine/core/error.h"
-#include "engine/distance/numbering.h"
 #include "engine/forge/anchor_set.h"
+#include "engine/mesh/place_order.h"
 
 #include <algorithm>
 

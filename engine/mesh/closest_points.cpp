@@ -1,197 +1,242 @@
 #include "engine/mesh/closest_point_search.h"
 
+#include "engine/mesh/place_order.h"
+
+#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <numeric>
 
 namespace anvil {
 
 namespace {
 
-constexpr float rounded_float = 1e-5F; // what a few operations in float may take off a result
-
-/// A point at a distance, seen from up to `radius` beside: how much farther it may be than the plane through
-/// it across the first line of sight.
-template <class Real>
-Real farther_than_plane(Real radius, Real distance) {
-    return distance > Real(1.5) * radius ? Real(0.5) * radius * radius / (distance - radius)
-                                         : std::numeric_limits<Real>::infinity();
-}
+// What floats take off distances to boxes, as a share of the largest coordinate at work: a point and a box
+// are each off by 2^-24 of it; turning the arm between them into the box's axes, which are off by 2^-24
+// themselves, and adding the squares takes off another 12 of these at most. This is twice as much.
+constexpr float rounded_float = 2e-6F;
+// In diagonals: beyond, floats see little of the tree.
+constexpr double far_away = 100;
 
 } // namespace
 
-ClosestPointSearch::Parts ClosestPointSearch::split(Group group, const Box& box) const {
-    const Vec3 centre = box.centre();
-    Parts parts;
-    parts.group[0] = group;
-    parts.count = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-        for (size_t i = parts.count; i-- > 0;) {
-            const Group whole = parts.group[i];
-            const auto second = std::partition(whole.begin(), whole.end(),
-                                               [&](uint32_t q) { return queries_[q][axis] < centre[axis]; });
-            const auto low = static_cast<size_t>(second - whole.begin());
-            if (low > 0 && low < whole.size()) {
-                parts.group[i] = whole.first(low);
-                parts.group[parts.count++] = whole.subspan(low);
-            }
+void ClosestPointSearch::run(std::span<const Vec3> queries, std::span<ClosestPoint> found) {
+    queries_.clear();
+    place_.clear();
+    for (uint32_t i = 0; i < queries.size(); ++i) {
+        const Vec3 arm = tree_.scale_ * (queries[i] - tree_.middle_);
+        if (glm::dot(arm, arm) < far_away * far_away && !tree_.nodes_.empty()) {
+            queries_.push_back(queries[i]);
+            place_.push_back(i);
+        } else {
+            found[i] = tree_.closest(queries[i]);
         }
     }
-    for (size_t i = 0; i < parts.count; ++i) {
-        parts.box[i] = box_of(parts.group[i]);
+    found_.assign(queries_.size(), {});
+    const std::vector<uint32_t> order = order_by_place(queries_);
+    for (size_t i = 0; i < order.size(); i += lanes) {
+        search(Packet(order).subspan(i, std::min(lanes, order.size() - i)));
     }
-    return parts;
+    for (size_t i = 0; i < place_.size(); ++i) {
+        found[place_[i]] = found_[i];
+    }
 }
 
-bool ClosestPointSearch::gather(const Box& box, size_t most) {
-    centre_ = box.centre();
-    const ClosestPoint nearest = closest(centre_);
-    const Vec3 towards = (nearest.position - centre_) / nearest.distance;
-    const double radius = 0.5 * box.diagonal();
-    const double curve = farther_than_plane(radius, nearest.distance);
-    // Most boxes are decided without a root; what is not a number is beyond nothing.
-    const double surely_near = nearest.distance * nearest.distance;
-    const double limit = (1 + 3 * rounded) * (nearest.distance + 2 * radius);
-    const double surely_far = limit * limit;
-    near_.clear();
-    tree_.each_leaf(
-        [&](const Box& other) {
-            const Vec3 arm = glm::clamp(centre_, other.low, other.high) - centre_;
-            const double squared = glm::dot(arm, arm);
-            if (squared <= surely_near || squared > surely_far) {
-                return !(squared > surely_far);
+// What is decided in double, by closest_on_triangle(), stands in another file: it is compiled once, and the
+// same for every processor.
+ANVIL_FOR_PROCESSOR void ClosestPointSearch::search(Packet packet) {
+    set_points(packet);
+    start_from_known();
+    descend();
+    look();
+    for (size_t i = 0; i < seen_count_; ++i) {
+        if (any_not_above(seen_[i].squared, box_limits_)) {
+            measure(seen_[i].leaf);
+        }
+    }
+    decide(packet);
+}
+
+void ClosestPointSearch::set_points(Packet packet) {
+    std::array<Vec3, lanes> points;
+    for (size_t i = 0; i < lanes; ++i) {
+        points[i] = queries_[packet[std::min(i, packet.size() - 1)]];
+    }
+    LaneFloats farthest{};
+    for (int axis = 0; axis < 3; ++axis) {
+        auto& [low, high] = points_.exact[axis].half;
+        low = Double4{points[0][axis], points[1][axis], points[2][axis], points[3][axis]};
+        high = Double4{points[4][axis], points[5][axis], points[6][axis], points[7][axis]};
+        points_.local[axis] = narrowed(points_.exact[axis], tree_.middle_[axis], tree_.scale_);
+        farthest = most(farthest, absolute(points_.local[axis]));
+    }
+    float far = 0;
+    for (size_t i = 0; i < lanes; ++i) {
+        far = std::max(far, farthest[i]);
+    }
+    blur_ = rounded_float * (1 + 2 * far);
+}
+
+void ClosestPointSearch::start_from_known() {
+    measured_count_ = 0;
+    limits_ = all_lanes(largest_float);
+    box_limits_ = limits_;
+    if (known_count_ == 0) {
+        remember(a_near_leaf());
+    }
+    for (size_t i = 0; i < known_count_; ++i) {
+        measure(static_cast<uint32_t>(known_[i]));
+    }
+}
+
+/// By always going to the nearest child.
+uint32_t ClosestPointSearch::a_near_leaf() const {
+    kernel::f32::TreeNode best{};
+    do {
+        float least_squared = std::numeric_limits<float>::infinity();
+        for (const kernel::f32::TreeNode& child : tree_.wide_nodes_[best.first].children) {
+            const float squared = squared_to(child)[0];
+            if (squared < least_squared) {
+                least_squared = squared;
+                best = child;
             }
-            const double distance = std::sqrt(squared);
-            const double farther = (1 - rounded) * distance - nearest.distance;
-            return !(farther > 2 * radius) &&
-                   !(farther > radius * glm::length(arm / distance - towards) + curve);
-        },
-        [&](const SearchTree::Node& leaf) {
-            near_.push_back(leaf.first / static_cast<uint32_t>(SearchTree::leaf_size));
-            return near_.size() <= most;
-        });
-    if (near_.size() > most) {
-        return false;
-    }
-    blur_ = rounded_float * static_cast<float>((nearest.distance + radius) * tree_.scale_);
-    leaves_.clear();
-    for (const uint32_t index : near_) {
-        const SearchTree::Leaf& leaf = tree_.leaves_[index];
-        leaves_.push_back({glm::vec3(local(leaf.centre)), leaf.axes, leaf.half, index});
-    }
-    whole_.resize(leaves_.size());
-    std::iota(whole_.begin(), whole_.end(), 0U);
-    return true;
+        }
+    } while (best.count == 0);
+    return best.first;
 }
 
-ANVIL_FOR_PROCESSOR void ClosestPointSearch::thin_out(const Parts& parts, const List& list,
-                                                      std::array<List, lanes>& kept_lists) {
-    LanePoints centres;
-    for (size_t i = 0; i < parts.count; ++i) {
-        centres.set(i, local(parts.box[i].centre()));
-    }
-    const std::array<uint32_t, lanes> nearest = views_.look<true>(leaves_, list, centres);
-    Horizons horizons{};
-    for (size_t i = 0; i < parts.count; ++i) {
-        set_horizon(horizons, i, parts.box[i], leaves_[list[nearest[i]]]);
-    }
-    for (List& part : kept_lists) {
-        part.clear();
-    }
-    for (size_t k = 0; k < list.size(); ++k) {
-        const unsigned out = beyond(horizons, leaves_[list[k]], views_[k]);
-        for (unsigned kept = ~out & ((1U << parts.count) - 1); kept != 0; kept &= kept - 1) {
-            kept_lists[static_cast<size_t>(std::countr_zero(kept))].push_back(list[k]);
+// Level by level, and without branches but the loop's: what is near is hard to predict, and so the processor
+// can begin with nodes while it is at others.
+void ClosestPointSearch::descend() {
+    constexpr size_t width = SearchTree::WideNode{}.children.size();
+    leaf_count_ = 0;
+    size_t count = 1;
+    open_.resize(std::max<size_t>(open_.size(), 64));
+    open_[0] = 0;
+    for (size_t i = 0; i < count; ++i) {
+        if (open_.size() < count + width) {
+            open_.resize(2 * count + 64);
+        }
+        if (leaves_.size() < leaf_count_ + width) {
+            leaves_.resize(2 * leaf_count_ + 64);
+        }
+        for (const kernel::f32::TreeNode& child : tree_.wide_nodes_[open_[i]].children) {
+            const size_t near = any_not_above(squared_to(child), box_limits_) ? 1 : 0;
+            const size_t leaf = child.count > 0 ? near : 0;
+            leaves_[leaf_count_] = child.first;
+            leaf_count_ += leaf;
+            open_[count] = child.first;
+            count += near - leaf;
         }
     }
 }
 
-void ClosestPointSearch::set_horizon(Horizons& horizons, size_t lane, const Box& part,
-                                     const NearLeaf& leaf) const {
-    const Vec3 centre = part.centre();
-    const SearchTree::SquaredBounds squared = tree_.squared_distances(tree_.leaves_[leaf.index], centre);
-    uint32_t best = 0;
-    for (uint32_t i = 1; i < count_of(leaf); ++i) {
-        best = squared.low[i] < squared.low[best] ? i : best;
-    }
-    const ClosestPoint point = on_slot(centre, first_slot(leaf) + best);
-    const double radius = 0.5 * part.diagonal();
-    const Vec3 towards = (point.position - centre) / point.distance;
-    horizons.radius[lane] = static_cast<float>(tree_.scale_ * radius);
-    horizons.distance[lane] = static_cast<float>(tree_.scale_ * point.distance);
-    horizons.curve[lane] = static_cast<float>(tree_.scale_ * farther_than_plane(radius, point.distance));
+LaneFloats ClosestPointSearch::squared_to(const kernel::f32::TreeNode& node) const {
+    LaneFloats squared{};
     for (int axis = 0; axis < 3; ++axis) {
-        horizons.towards[axis][lane] = static_cast<float>(towards[axis]);
+        const LaneFloats& p = points_.local[axis];
+        const LaneFloats gap = p - least(most(p, all_lanes(node.low[axis])), all_lanes(node.high[axis]));
+        squared += gap * gap;
+    }
+    return squared;
+}
+
+void ClosestPointSearch::look() {
+    seen_.resize(std::max(seen_.size(), leaf_count_ + 1));
+    seen_count_ = 0;
+    LaneFloats lowest = all_lanes(largest_float);
+    LaneInts nearest = LaneInts{} - 1;
+    for (size_t i = 0; i < leaf_count_; ++i) {
+        __builtin_prefetch(&tree_.leaf_boxes_[leaves_[std::min(i + 8, leaf_count_ - 1)]]);
+        const LaneFloats squared = squared_to(leaves_[i]);
+        const bool counts = any_not_above(squared, box_limits_) & !is_known(leaves_[i]);
+        seen_[seen_count_] = {squared, leaves_[i]};
+        const LaneInts nearer = (squared < lowest) & (counts ? -1 : 0);
+        lowest = nearer ? squared : lowest;
+        nearest = nearer ? LaneInts{} + static_cast<int>(seen_count_) : nearest;
+        seen_count_ += counts ? 1 : 0;
+    }
+    for (size_t lane = 0; lane < lanes; ++lane) {
+        if (nearest[lane] >= 0) {
+            Seen& seen = seen_[static_cast<size_t>(nearest[lane])];
+            if (any_not_above(seen.squared, box_limits_)) {
+                measure(seen.leaf);
+            }
+            seen.squared = all_lanes(std::numeric_limits<float>::infinity());
+        }
     }
 }
 
-unsigned ClosestPointSearch::beyond(const Horizons& horizons, const NearLeaf& leaf,
-                                    const LeafView& view) const {
-    LaneFloats distance = view.squared;
-    take_root(distance);
-    const LaneFloats farther = distance - horizons.distance - blur_;
-    const auto& [x, y, z] = horizons.towards;
-    LaneFloats along{};
+std::array<LaneFloats, 3> ClosestPointSearch::arm_to(uint32_t leaf) const {
+    std::array<LaneFloats, 3> arm;
+    const Vec3& centre = tree_.leaves_[leaf].centre;
+    for (int axis = 0; axis < 3; ++axis) {
+        arm[axis] = narrowed(points_.exact[axis], centre[axis], tree_.scale_);
+    }
+    return arm;
+}
+
+LaneFloats ClosestPointSearch::squared_to(uint32_t index) const {
+    const SearchTree::LeafBox& leaf = tree_.leaf_boxes_[index];
+    const LaneFloats x = points_.local[0] - leaf.place.x;
+    const LaneFloats y = points_.local[1] - leaf.place.y;
+    const LaneFloats z = points_.local[2] - leaf.place.z;
+    LaneFloats squared{};
     for (int axis = 0; axis < 3; ++axis) {
         const glm::vec3& a = leaf.axes[axis];
-        along += view.arm[axis] * (a.x * x + a.y * y + a.z * z);
+        const LaneFloats along = absolute(a.x * x + a.y * y + a.z * z);
+        const LaneFloats gap = not_negative(along - leaf.half[axis]);
+        squared += gap * gap;
     }
-    LaneFloats apart = 2 - 2 * along / distance + rounded_float;
-    take_root(apart);
-    return signs((farther > 2 * horizons.radius) | (farther > horizons.radius * apart + horizons.curve));
+    return squared;
 }
 
-ANVIL_FOR_PROCESSOR void ClosestPointSearch::decide(Group group, const List& list) {
-    LanePoints points;
-    for (size_t i = 0; i < group.size(); ++i) {
-        points.set(i, local(queries_[group[i]]));
+void ClosestPointSearch::measure(uint32_t index) {
+    if (measured_.size() < measured_count_ + SearchTree::leaf_size) {
+        measured_.resize(2 * measured_count_ + 64);
     }
-    const std::array<uint32_t, lanes> nearest = views_.look<false>(leaves_, list, points);
-    measured_.clear();
-    fill(limits_, largest_float);
-    box_limits_ = limits_;
-    for (size_t i = 0; i < group.size(); ++i) {
-        lower(i, measure(i, leaves_[list[nearest[i]]], queries_[group[i]], largest_float));
+    const SearchTree::Leaf& leaf = tree_.leaves_[index];
+    const auto first = index * static_cast<uint32_t>(SearchTree::leaf_size);
+    const auto count = static_cast<uint32_t>(std::min(SearchTree::leaf_size, tree_.corners_.size() - first));
+    const std::array<LaneFloats, 3> arm = arm_to(index);
+    const LaneFloats lengths = leaf.reach + absolute(arm[0]) + absolute(arm[1]) + absolute(arm[2]);
+    const LaneFloats error = lengths * (kernel::f32::FLAT_ROUNDING * lengths + 2 * leaf.slack);
+    for (uint32_t i = 0; i < count; ++i) {
+        const LaneFloats squared = squared_distance(
+            leaf.flat, i,
+            {arm[0] - leaf.origins[0][i], arm[1] - leaf.origins[1][i], arm[2] - leaf.origins[2][i]});
+        limits_ = least(squared + error, limits_);
+        const LaneFloats low = squared - error;
+        measured_[measured_count_] = {low, first + i};
+        measured_count_ += any_not_above(low, limits_) ? 1 : 0;
     }
-    const unsigned used = (1U << group.size()) - 1;
-    for (size_t k = 0; k < list.size(); ++k) {
-        for (unsigned near = not_above(views_[k].squared, box_limits_) & used; near != 0; near &= near - 1) {
-            const auto i = static_cast<size_t>(std::countr_zero(near));
-            if (k != nearest[i]) {
-                lower(i, measure(i, leaves_[list[k]], queries_[group[i]], limits_[i]));
-            }
+    box_limits_ = limits_ + blur_ * (2 * square_root(limits_) + blur_);
+}
+
+void ClosestPointSearch::decide(Packet packet) {
+    known_count_ = 0;
+    known_ = no_leaves;
+    const unsigned used = (1U << packet.size()) - 1;
+    for (size_t i = 0; i < measured_count_; ++i) {
+        const auto& [low, slot] = measured_[i];
+        const unsigned near_lanes = not_above(low, limits_) & used;
+        for (unsigned near = near_lanes; near != 0; near &= near - 1) {
+            offer(packet[static_cast<size_t>(std::countr_zero(near))], slot);
+        }
+        if (near_lanes != 0) {
+            remember(slot / static_cast<uint32_t>(SearchTree::leaf_size));
         }
     }
-    for (const auto& [lane, low, leaf] : measured_) {
-        const unsigned lowest = signs(~(low > limits_[lane]));
-        for (unsigned near = lowest & ((1U << count_of(*leaf)) - 1); near != 0; near &= near - 1) {
-            offer(group[lane], first_slot(*leaf) + static_cast<uint32_t>(std::countr_zero(near)));
-        }
+}
+
+void ClosestPointSearch::remember(uint32_t leaf) {
+    if (known_count_ < lanes && !is_known(leaf)) {
+        known_[known_count_++] = static_cast<int>(leaf);
     }
 }
 
-void ClosestPointSearch::lower(size_t lane, float limit) {
-    if (limit < limits_[lane]) {
-        limits_[lane] = limit;
-        box_limits_[lane] = limit + blur_ * (2 * std::sqrt(limit) + blur_);
-    }
-}
-
-unsigned ClosestPointSearch::not_above(const LaneFloats& values, const LaneFloats& limits) {
-    return signs(~(values > limits));
-}
-
-float ClosestPointSearch::measure(size_t lane, const NearLeaf& leaf, const Vec3& query, float limit) {
-    const auto [low, high] = tree_.squared_distances(tree_.leaves_[leaf.index], query);
-    measured_.push_back({lane, low, &leaf});
-    for (uint32_t i = 0; i < count_of(leaf); ++i) {
-        limit = high[i] < limit ? high[i] : limit;
-    }
-    return limit;
-}
-
-void ClosestPointSearch::offer(uint32_t query, uint32_t slot) {
-    const ClosestPoint there = on_slot(queries_[query], slot);
+void ClosestPointSearch::offer(size_t query, uint32_t slot) {
+    const auto& [a, b, c] = tree_.corners_[slot];
+    ClosestPoint there = closest_on_triangle(queries_[query], a, b, c);
+    there.triangle = tree_.order_[slot];
     ClosestPoint& best = found_[query];
     if (there.distance < best.distance ||
         (there.distance == best.distance && there.triangle < best.triangle)) {
@@ -203,10 +248,6 @@ ClosestPointTracer::ClosestPointTracer(const SearchTree& tree)
     : search_(std::make_unique<ClosestPointSearch>(tree)) {}
 
 ClosestPointTracer::~ClosestPointTracer() = default;
-
-void ClosestPointTracer::enter(const Box& box) {
-    search_->enter(box);
-}
 
 void ClosestPointTracer::closest(std::span<const Vec3> queries, std::span<ClosestPoint> found) {
     search_->run(queries, found);

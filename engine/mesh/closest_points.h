@@ -10,9 +10,8 @@ namespace anvil {
 
 class ClosestPointSearch;
 
-/// Answers the queries of one thread, at a tenth of the price of SearchTree::closest() where they lie as
-/// close together as the samples of a field: what may be nearest is found for all of them, and then narrowed
-/// down.
+/// Answers the queries of one thread, at a fraction of the price of SearchTree::closest() where they lie as
+/// close together as the samples of a field: eight are searched for at once.
 class ClosestPointTracer {
   public:
     /// `tree` outlives the tracer.
@@ -20,10 +19,6 @@ class ClosestPointTracer {
     ~ClosestPointTracer();
     ClosestPointTracer(const ClosestPointTracer&) = delete;
     ClosestPointTracer& operator=(const ClosestPointTracer&) = delete;
-
-    /// Finds what may be nearest to any point of the box: queries within it, until the next box, ask for
-    /// less.
-    void enter(const Box& box);
 
     /// The nearest points in any order, found[i] for queries[i]. Of equally near triangles it may be another
     /// one than SearchTree::closest() finds. Nothing is found for what is not finite.

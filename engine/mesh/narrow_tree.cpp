@@ -43,17 +43,52 @@ void find_beyond(std::vector<kernel::f32::TreeNode>& nodes) {
 
 } // namespace
 
+kernel::f32::TreeNode SearchTree::narrow_node(const Node& node) const {
+    return {rounded_down(scale_ * (node.box.low - middle_)), node.first,
+            -rounded_down(scale_ * (middle_ - node.box.high)), node.count};
+}
+
+void SearchTree::fill_wide_nodes() {
+    if (!nodes_.empty()) {
+        widen(0);
+    }
+}
+
+/// What is below a node, inner ones opened from the largest on; @return the wide node.
+uint32_t SearchTree::widen(uint32_t index) {
+    const auto size = [&](uint32_t i) { return nodes_[i].count > 0 ? -1 : nodes_[i].box.diagonal(); };
+    std::vector<uint32_t> below{index};
+    while (below.size() < WideNode{}.children.size()) {
+        const auto largest = std::max_element(below.begin(), below.end(),
+                                              [&](uint32_t a, uint32_t b) { return size(a) < size(b); });
+        const uint32_t opened = *largest;
+        if (size(opened) < 0) {
+            break;
+        }
+        *largest = opened + 1;
+        below.push_back(nodes_[opened].first);
+    }
+    const auto wide = static_cast<uint32_t>(wide_nodes_.size());
+    const glm::vec3 nowhere(std::numeric_limits<float>::infinity());
+    wide_nodes_.emplace_back().children.fill({nowhere, 0, -nowhere, 1});
+    for (size_t i = 0; i < below.size(); ++i) {
+        kernel::f32::TreeNode child = narrow_node(nodes_[below[i]]);
+        child.first = child.count > 0 ? child.first / static_cast<uint32_t>(leaf_size) : widen(below[i]);
+        wide_nodes_[wide].children[i] = child;
+    }
+    return wide;
+}
+
 NarrowTree SearchTree::narrowed() const {
     NarrowTree tree;
     if (nodes_.empty()) {
         return tree;
     }
-    tree.middle = nodes_.front().box.centre();
+    tree.middle = middle_;
     tree.scale = scale_;
     tree.nodes.reserve(nodes_.size());
     for (const Node& node : nodes_) {
-        tree.nodes.push_back({rounded_down(tree.scale * (node.box.low - tree.middle)), node.first,
-                              -rounded_down(tree.scale * (tree.middle - node.box.high)), node.count});
+        tree.nodes.push_back(narrow_node(node));
     }
     find_beyond(tree.nodes);
     tree.triangles.reserve(corners_.size());

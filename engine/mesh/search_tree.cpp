@@ -47,14 +47,18 @@ Vec3 foot(const Vec3& ap, const Vec3& ab, const Vec3& ac, const Vec3& normal, do
 }
 
 /// Every candidate is a point of the triangle, so that whatever rounding does to a needle's normal, the
-/// least distance stands. The edges are tried only if the foot of the perpendicular lies outside.
+/// least distance stands. An edge is tried only if the foot of the perpendicular lies beyond it, or nearly:
+/// if it lies within another edge by more than what rounding does, it is nearer to some point of those beyond
+/// which it lies than to any of that.
 Candidate nearest(const Vec3& ap, const Vec3& ab, const Vec3& ac) {
+    constexpr double surely_within = 1e-6;
     Candidate best;
     const Vec3 normal = glm::cross(ab, ac);
     const double area2 = dot2(normal);
     const Vec3 bc = ac - ab;
     const double bc2 = dot2(bc);
     const double sides4 = std::max(dot2(ab), bc2) * std::max(dot2(ac), bc2);
+    Vec3 within(0); // of the edges across from a, b, c
     // A normal that is mostly rounding says nothing about inside and outside.
     if (area2 > 1e-24 * sides4) {
         const bool needle = area2 < 1e-6 * sides4;
@@ -65,13 +69,20 @@ Candidate nearest(const Vec3& ap, const Vec3& ab, const Vec3& ac) {
                 return best;
             }
         }
+        within = needle ? within : weights;
     }
-    const double on_ab = segment_parameter(ap, ab);
-    best.offer({1 - on_ab, on_ab, 0}, on_ab * ab, ap);
-    const double on_ac = segment_parameter(ap, ac);
-    best.offer({1 - on_ac, 0, on_ac}, on_ac * ac, ap);
-    const double on_bc = segment_parameter(ap - ab, bc);
-    best.offer({0, 1 - on_bc, on_bc}, on_bc == 1 ? ac : ab + on_bc * bc, ap);
+    if (within.z < surely_within) {
+        const double on_ab = segment_parameter(ap, ab);
+        best.offer({1 - on_ab, on_ab, 0}, on_ab * ab, ap);
+    }
+    if (within.y < surely_within) {
+        const double on_ac = segment_parameter(ap, ac);
+        best.offer({1 - on_ac, 0, on_ac}, on_ac * ac, ap);
+    }
+    if (within.x < surely_within) {
+        const double on_bc = segment_parameter(ap - ab, bc);
+        best.offer({0, 1 - on_bc, on_bc}, on_bc == 1 ? ac : ab + on_bc * bc, ap);
+    }
     return best;
 }
 
@@ -157,23 +168,30 @@ SearchTree::SearchTree(std::span<const Vec3> positions, std::span<const Triangle
         corners_.push_back({positions[t[0]], positions[t[1]], positions[t[2]]});
     }
     fill_leaves();
+    fill_wide_nodes();
 }
 
 void SearchTree::fill_leaves() {
     const double diagonal = nodes_.empty() ? 0 : nodes_[0].box.diagonal();
     scale_ = diagonal > 0 ? 1 / diagonal : 1;
+    middle_ = nodes_.empty() ? Vec3(0) : nodes_.front().box.centre();
     leaves_.resize((corners_.size() + leaf_size - 1) / leaf_size);
+    leaf_boxes_.reserve(leaves_.size());
     for (size_t i = 0; i < leaves_.size(); ++i) {
         const size_t first = i * leaf_size;
         const size_t count = std::min(leaf_size, corners_.size() - first);
         Leaf& leaf = leaves_[i];
-        fit_box(leaf, std::span<const Corners>(corners_).subspan(first, count));
+        leaf_boxes_.push_back(fitted_box(std::span<const Corners>(corners_).subspan(first, count)));
+        leaf.centre = middle_ + Vec3(leaf_boxes_.back().place) / scale_;
         for (size_t lane = 0; lane < count; ++lane) {
             const Corners& t = corners_[first + lane];
             const std::array<Vec3, 3> corners{t.a, t.b, t.c};
             const FlatTriangle flat = flattened(corners, scale_);
             leaf.flat.set(lane, flat);
             const Vec3 arm = (corners[flat.origin] - leaf.centre) * scale_;
+            const double reach = flat.b + std::abs(arm.x) + std::abs(arm.y) + std::abs(arm.z);
+            leaf.slack = std::max(leaf.slack, flat.slack);
+            leaf.reach = std::max(leaf.reach, static_cast<float>((1 + 1e-6) * reach));
             for (int axis = 0; axis < 3; ++axis) {
                 leaf.origins[axis][lane] = static_cast<float>(arm[axis]);
             }
@@ -182,7 +200,7 @@ void SearchTree::fill_leaves() {
 }
 
 /// Across the triangles' mean normal and along the longest side.
-void SearchTree::fit_box(Leaf& leaf, std::span<const Corners> triangles) const {
+SearchTree::LeafBox SearchTree::fitted_box(std::span<const Corners> triangles) const {
     Vec3 normal(0);
     Vec3 longest(0);
     for (const Corners& t : triangles) {
@@ -199,22 +217,25 @@ void SearchTree::fit_box(Leaf& leaf, std::span<const Corners> triangles) const {
     const Vec3 along = longest - glm::dot(longest, z) * z;
     const bool slants = dot2(along) > std::max(1e-6 * dot2(longest), least_square);
     const Vec3 x = glm::normalize(slants ? along : glm::cross(z, across));
-    leaf.axes = {glm::vec3(x), glm::vec3(glm::cross(z, x)), glm::vec3(z)};
+    LeafBox fitted;
+    fitted.axes = {glm::vec3(x), glm::vec3(glm::cross(z, x)), glm::vec3(z)};
     const Vec3 origin = triangles.front().a;
     Box box;
     for (const Corners& t : triangles) {
         for (const Vec3& corner : {t.a, t.b, t.c}) {
             const Vec3 arm = scale_ * (corner - origin);
-            box.include({glm::dot(Vec3(leaf.axes[0]), arm), glm::dot(Vec3(leaf.axes[1]), arm),
-                         glm::dot(Vec3(leaf.axes[2]), arm)});
+            box.include({glm::dot(Vec3(fitted.axes[0]), arm), glm::dot(Vec3(fitted.axes[1]), arm),
+                         glm::dot(Vec3(fitted.axes[2]), arm)});
         }
     }
-    const Vec3 middle = box.centre() / scale_;
-    leaf.centre = origin + middle.x * Vec3(leaf.axes[0]) + middle.y * Vec3(leaf.axes[1]) +
-                  middle.z * Vec3(leaf.axes[2]);
+    const Vec3 middle = box.centre();
+    const Vec3 centre =
+        middle.x * Vec3(fitted.axes[0]) + middle.y * Vec3(fitted.axes[1]) + middle.z * Vec3(fitted.axes[2]);
+    fitted.place = glm::vec3(scale_ * (origin - middle_) + centre);
     // The axes are of length one and at right angles to 2^-23 each.
     constexpr double rounding = 1e-6;
-    leaf.half = glm::vec3(0.5 * (box.high - box.low) + rounding * box.diagonal());
+    fitted.half = glm::vec3(0.5 * (box.high - box.low) + rounding * box.diagonal());
+    return fitted;
 }
 
 void SearchTree::build(std::span<Item> items, uint32_t first, int depth) {

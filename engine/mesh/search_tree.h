@@ -78,17 +78,28 @@ class SearchTree {
         uint32_t first = 0; ///< leaf: first triangle in order_; inner: right child (the left one is next)
         uint32_t count = 0; ///< leaf: triangles; inner: 0
     };
+    /// Up to four nodes below one, in single precision, around middle_ in units of the diagonal. `first` of
+    /// inner ones: their wide node; of leaves: which of leaves_. What is missing is infinitely far.
+    struct WideNode {
+        std::array<kernel::f32::TreeNode, 4> children;
+    };
     struct Corners {
         Vec3 a, b, c;
     };
-    /// The triangles of four slots in single precision, and a box around them that lies as they do. Lengths
-    /// are in units of the mesh's diagonal, places in the mesh's own.
+    /// The triangles of four slots in single precision. Lengths are in units of the mesh's diagonal, places
+    /// in the mesh's own.
     struct Leaf {
         FlatFour flat{};
-        std::array<Float4, 3> origins{}; ///< of the triangles' planes, from the box's centre
+        std::array<Float4, 3> origins{}; ///< of the triangles' planes, from the centre
+        float slack = 0;                 ///< most of the triangles'
+        float reach = 0; ///< most of a triangle's longest side and its origin's coordinates from the centre
         Vec3 centre{0};
+    };
+    /// Around the triangles of four slots, and lying as they do; around middle_ in units of the diagonal.
+    struct alignas(64) LeafBox {
+        glm::vec3 place{0}; ///< of the centre
         std::array<glm::vec3, 3> axes{};
-        glm::vec3 half{0}; ///< size of the box
+        glm::vec3 half{0}; ///< size
     };
     /// What the squared distances to a leaf's triangles are at least and at most.
     struct SquaredBounds {
@@ -126,7 +137,7 @@ class SearchTree {
     void build(std::span<Item> items, uint32_t first, int depth);
     static size_t split(std::span<Item> items, int depth);
     void fill_leaves();
-    void fit_box(Leaf& leaf, std::span<const Corners> triangles) const;
+    LeafBox fitted_box(std::span<const Corners> triangles) const;
     /// In units of the diagonal; what is not a number bounds nothing.
     SquaredBounds squared_distances(const Leaf& leaf, const Vec3& query) const {
         const glm::vec3 arm((query - leaf.centre) * scale_);
@@ -139,11 +150,18 @@ class SearchTree {
         return {squared - error, squared + error};
     }
 
+    kernel::f32::TreeNode narrow_node(const Node& node) const;
+    uint32_t widen(uint32_t index);
+    void fill_wide_nodes();
+
     std::vector<Node> nodes_;
+    std::vector<WideNode> wide_nodes_;
     std::vector<Corners> corners_; ///< in the order of order_
     std::vector<Leaf> leaves_;     ///< of slots 4i to 4i + 3
-    double scale_ = 1;             ///< to units of the diagonal
-    std::vector<uint32_t> order_;  ///< triangle of each leaf slot
+    std::vector<LeafBox> leaf_boxes_;
+    double scale_ = 1;            ///< to units of the diagonal
+    Vec3 middle_{0};              ///< of the box
+    std::vector<uint32_t> order_; ///< triangle of each leaf slot
 };
 
 } // namespace anvil

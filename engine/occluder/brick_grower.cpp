@@ -135,7 +135,6 @@ class BrickGrower {
             const std::unique_ptr<DistanceTracer> tracer = solid_.tracer();
             for (size_t i = begin; i < end; ++i) {
                 begin_cluster(sampler, clusters, i);
-                tracer->enter(sampler.box());
                 do {
                     tracer->trace(sampler.points(), sampler.found());
                 } while (sampler.advance());

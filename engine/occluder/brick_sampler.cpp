@@ -109,15 +109,6 @@ glm::vec4 BrickSampler::found_sample(size_t i) const {
     return {glm::vec3(found_[i].normal), static_cast<float>(found_[i].distance / layout_.voxel)};
 }
 
-Box BrickSampler::box() const {
-    Box box;
-    for (const Brick& child : cluster_.children) {
-        box.include(point(child, Vec3(0)));
-        box.include(point(child, Vec3(brick_cells)));
-    }
-    return box;
-}
-
 void BrickSampler::begin(const Cluster& cluster, std::span<double> errors) {
     cluster_ = cluster;
     errors_ = errors;

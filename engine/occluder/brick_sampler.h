@@ -38,8 +38,6 @@ class BrickSampler {
     /// After points() were found. @return false: the cluster is done.
     bool advance();
 
-    /// Around all points that the cluster can ask for.
-    Box box() const;
     std::span<const Vec3> points() const { return points_; }
     std::span<SignedDistance> found() { return found_; }
 

@@ -19,12 +19,10 @@ struct SignedDistance {
     Vec3 normal;     ///< outward unit normal: from the closest surface point, or towards it when inside
 };
 
-/// Asks a solid for the distances of many points of one box after another, on one thread.
+/// Asks a solid for the distances of many points, on one thread.
 class DistanceTracer {
   public:
     virtual ~DistanceTracer() = default;
-    /// What follows, up to the next box, is quicker within this one.
-    virtual void enter(const Box&) {}
     /// Of the same number as `found`; quick where each is near the one before.
     virtual void trace(std::span<const Vec3> points, std::span<SignedDistance> found) = 0;
 };

@@ -88,8 +88,6 @@ class MeshDistance final : public ExactDistance {
       public:
         explicit Tracer(const MeshDistance& solid) : solid_(solid), nearest_(solid.tree_), signer_(solid) {}
 
-        void enter(const Box& box) override { nearest_.enter(box); }
-
         void trace(std::span<const Vec3> points, std::span<SignedDistance> found) override {
             closest_.resize(points.size());
             nearest_.closest(points, closest_);

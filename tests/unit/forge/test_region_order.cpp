@@ -1,4 +1,4 @@
-#include "engine/distance/numbering.h"
+#include "engine/mesh/place_order.h"
 
 #include "engine/forge/edit_region.h"
 #include "engine/mesh/sample_shapes.h"

@@ -89,30 +89,28 @@ void check_found(const Soup& soup, const std::vector<Vec3>& queries, const std::
     CHECK(off == 0);
 }
 
-/// Without a box, and in halves within one that holds all queries, then with one that does not.
+/// At once, in halves by a tracer that has found others before, and one by one.
 void check_found(const Soup& soup, const std::vector<Vec3>& queries) {
     const SearchTree tree(soup.positions, soup.triangles);
     std::vector<double> truth;
-    Box box;
     for (const Vec3& q : queries) {
         truth.push_back(brute_force(soup, q));
-        box.include(q);
     }
     ClosestPointTracer tracer(tree);
     std::vector<ClosestPoint> found(queries.size());
     tracer.closest(queries, found);
     check_found(soup, queries, truth, found);
-    tracer.enter(box);
     const std::span<const Vec3> all(queries);
     const std::span<ClosestPoint> places(found);
     const size_t half = queries.size() / 2;
-    for (int part = 0; part < 2; ++part) {
-        std::fill(found.begin(), found.end(), ClosestPoint{});
-        tracer.closest(all.first(half), places.first(half));
-        tracer.closest(all.subspan(half), places.subspan(half));
-        check_found(soup, queries, truth, found);
-        tracer.enter({box.low, 0.5 * (box.low + box.high)});
+    std::fill(found.begin(), found.end(), ClosestPoint{});
+    tracer.closest(all.subspan(half), places.subspan(half));
+    tracer.closest(all.first(half), places.first(half));
+    check_found(soup, queries, truth, found);
+    for (size_t i = 0; i < queries.size(); ++i) {
+        tracer.closest(all.subspan(i, 1), places.subspan(i, 1));
     }
+    check_found(soup, queries, truth, found);
 }
 
 } // namespace
