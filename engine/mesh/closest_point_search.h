@@ -39,6 +39,11 @@ class ClosestPointSearch {
         uint32_t slot = 0;
     };
 
+    struct Nearest {
+        TrianglePoint point;
+        uint32_t slot = 0;
+    };
+
     void search(Packet packet);
     void set_points(Packet packet);
     /// Measures the leaves that held what was nearest to the last packet.
@@ -73,7 +78,7 @@ class ClosestPointSearch {
     const SearchTree& tree_;
     std::vector<Vec3> queries_;   ///< those that floats are good enough for
     std::vector<uint32_t> place_; ///< of each in what is asked
-    std::vector<ClosestPoint> found_;
+    std::vector<Nearest> nearest_;
     size_t known_count_ = 0;
     float blur_ = 0;               ///< what floats take off distances to boxes
     std::vector<uint32_t> open_;   ///< wide nodes on the way down

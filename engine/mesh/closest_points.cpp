@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace anvil {
 
@@ -15,6 +16,16 @@ namespace {
 constexpr float rounded_float = 2e-6F;
 // In diagonals: beyond, floats see little of the tree.
 constexpr double far_away = 100;
+
+/// Into the cache of the processor.
+template <class T>
+void fetch_soon(const T& data) {
+    constexpr size_t line = 64;
+    const char* begin = reinterpret_cast<const char*>(&data);
+    for (size_t at = 0; at < sizeof(T); at += line) {
+        __builtin_prefetch(begin + at);
+    }
+}
 
 } // namespace
 
@@ -30,17 +41,19 @@ void ClosestPointSearch::run(std::span<const Vec3> queries, std::span<ClosestPoi
             found[i] = tree_.closest(queries[i]);
         }
     }
-    found_.assign(queries_.size(), {});
+    nearest_.assign(queries_.size(), {});
     const std::vector<uint32_t> order = order_by_place(queries_);
     for (size_t i = 0; i < order.size(); i += lanes) {
         search(Packet(order).subspan(i, std::min(lanes, order.size() - i)));
     }
     for (size_t i = 0; i < place_.size(); ++i) {
-        found[place_[i]] = found_[i];
+        const auto& [point, slot] = nearest_[i];
+        found[place_[i]] = {tree_.order_[slot], point.barycentric, tree_.corners_[slot].a + point.offset,
+                            std::sqrt(point.distance2)};
     }
 }
 
-// What is decided in double, by closest_on_triangle(), stands in another file: it is compiled once, and the
+// What is decided in double, by nearest_on_triangle(), stands in another file: it is compiled once, and the
 // same for every processor.
 ANVIL_FOR_PROCESSOR void ClosestPointSearch::search(Packet packet) {
     set_points(packet);
@@ -153,6 +166,7 @@ void ClosestPointSearch::look() {
         lowest = nearer ? squared : lowest;
         nearest = nearer ? LaneInts{} + static_cast<int>(seen_count_) : nearest;
         seen_count_ += counts ? 1 : 0;
+        fetch_soon(tree_.leaves_[leaves_[i]]);
     }
     for (size_t lane = 0; lane < lanes; ++lane) {
         if (nearest[lane] >= 0) {
@@ -235,12 +249,11 @@ void ClosestPointSearch::remember(uint32_t leaf) {
 
 void ClosestPointSearch::offer(size_t query, uint32_t slot) {
     const auto& [a, b, c] = tree_.corners_[slot];
-    ClosestPoint there = closest_on_triangle(queries_[query], a, b, c);
-    there.triangle = tree_.order_[slot];
-    ClosestPoint& best = found_[query];
-    if (there.distance < best.distance ||
-        (there.distance == best.distance && there.triangle < best.triangle)) {
-        best = there;
+    const TrianglePoint there = nearest_on_triangle(queries_[query], a, b, c);
+    Nearest& best = nearest_[query];
+    if (there.distance2 < best.point.distance2 ||
+        (there.distance2 == best.point.distance2 && tree_.order_[slot] < tree_.order_[best.slot])) {
+        best = {there, slot};
     }
 }
 

@@ -20,18 +20,12 @@ double segment_parameter(const Vec3& ap, const Vec3& ab) {
     return length2 > 0 ? std::clamp(glm::dot(ap, ab) / length2, 0.0, 1.0) : 0.0;
 }
 
-struct Candidate {
-    double distance2 = infinity;
-    Vec3 barycentric{0};
-    Vec3 offset{0}; ///< from corner a
-
-    void offer(const Vec3& weights, const Vec3& from_a, const Vec3& ap) {
-        const double d2 = dot2(ap - from_a);
-        if (d2 < distance2) {
-            *this = {d2, weights, from_a};
-        }
+void offer(TrianglePoint& best, const Vec3& weights, const Vec3& from_a, const Vec3& ap) {
+    const double d2 = dot2(ap - from_a);
+    if (d2 < best.distance2) {
+        best = {d2, weights, from_a};
     }
-};
+}
 
 /// Weights of b and c at the foot of the perpendicular from ap. In a needle the first solution carries
 /// eps / sine; solving again for what is left of ap takes it to rounding.
@@ -50,9 +44,9 @@ Vec3 foot(const Vec3& ap, const Vec3& ab, const Vec3& ac, const Vec3& normal, do
 /// least distance stands. An edge is tried only if the foot of the perpendicular lies beyond it, or nearly:
 /// if it lies within another edge by more than what rounding does, it is nearer to some point of those beyond
 /// which it lies than to any of that.
-Candidate nearest(const Vec3& ap, const Vec3& ab, const Vec3& ac) {
+TrianglePoint nearest(const Vec3& ap, const Vec3& ab, const Vec3& ac) {
     constexpr double surely_within = 1e-6;
-    Candidate best;
+    TrianglePoint best;
     const Vec3 normal = glm::cross(ab, ac);
     const double area2 = dot2(normal);
     const Vec3 bc = ac - ab;
@@ -64,7 +58,7 @@ Candidate nearest(const Vec3& ap, const Vec3& ab, const Vec3& ac) {
         const bool needle = area2 < 1e-6 * sides4;
         const Vec3 weights = foot(ap, ab, ac, normal, area2, needle);
         if (weights.x >= 0 && weights.y >= 0 && weights.z >= 0) {
-            best.offer(weights, weights.y * ab + weights.z * ac, ap);
+            offer(best, weights, weights.y * ab + weights.z * ac, ap);
             if (!needle) {
                 return best;
             }
@@ -73,15 +67,15 @@ Candidate nearest(const Vec3& ap, const Vec3& ab, const Vec3& ac) {
     }
     if (within.z < surely_within) {
         const double on_ab = segment_parameter(ap, ab);
-        best.offer({1 - on_ab, on_ab, 0}, on_ab * ab, ap);
+        offer(best, {1 - on_ab, on_ab, 0}, on_ab * ab, ap);
     }
     if (within.y < surely_within) {
         const double on_ac = segment_parameter(ap, ac);
-        best.offer({1 - on_ac, 0, on_ac}, on_ac * ac, ap);
+        offer(best, {1 - on_ac, 0, on_ac}, on_ac * ac, ap);
     }
     if (within.x < surely_within) {
         const double on_bc = segment_parameter(ap - ab, bc);
-        best.offer({0, 1 - on_bc, on_bc}, on_bc == 1 ? ac : ab + on_bc * bc, ap);
+        offer(best, {0, 1 - on_bc, on_bc}, on_bc == 1 ? ac : ab + on_bc * bc, ap);
     }
     return best;
 }
@@ -141,8 +135,12 @@ int best_cut(const std::array<Bin, bin_count>& bins) {
 
 } // namespace
 
+TrianglePoint nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+    return nearest(p - a, b - a, c - a);
+}
+
 ClosestPoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Candidate found = nearest(p - a, b - a, c - a);
+    const TrianglePoint found = nearest(p - a, b - a, c - a);
     return {0, found.barycentric, a + found.offset, std::sqrt(found.distance2)};
 }
 
@@ -306,13 +304,13 @@ ClosestPoint SearchTree::closest(const Vec3& query, double max_distance) const {
     if (nodes_.empty() || !is_finite(query) || !(max_distance >= 0)) {
         return best;
     }
-    Candidate nearest_found;
+    TrianglePoint nearest_found;
     nearest_found.distance2 = max_distance * max_distance;
     size_t nearest_slot = 0;
     const double unit2 = 1 / (scale_ * scale_);
     const auto offer = [&](size_t slot) {
         const Corners& t = corners_[slot];
-        const Candidate found = nearest(query - t.a, t.b - t.a, t.c - t.a);
+        const TrianglePoint found = nearest(query - t.a, t.b - t.a, t.c - t.a);
         if (found.distance2 < nearest_found.distance2 ||
             (found.distance2 == nearest_found.distance2 && order_[slot] < best.triangle)) {
             nearest_found = found;

@@ -33,6 +33,16 @@ struct NarrowTree : NarrowPlace {
     std::vector<kernel::f32::TreeTriangle> triangles; ///< by slot
 };
 
+/// A point of a triangle abc, and its squared distance from where it is seen.
+struct TrianglePoint {
+    double distance2 = infinity;
+    Vec3 barycentric{0};
+    Vec3 offset{0}; ///< from corner a
+};
+
+/// That of triangle abc nearest to p; degenerate ones as for closest_on_triangle().
+TrianglePoint nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+
 /// The point of triangle abc nearest to p; `triangle` of the result is 0. Degenerate triangles (segments,
 /// points) are ordinary: the result is always a point of the triangle, to rounding the nearest.
 ClosestPoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);

@@ -44,6 +44,8 @@ struct Brick {
     int range = 0; ///< exponent of what distances are stored in units of
     BrickSamples samples;
 
+    Brick() {} // NOLINT(modernize-use-equals-default): the default would clear the samples first
+
     /// What distances are stored in units of, in voxels.
     double unit() const { return (1 << range) / kernel::f64::BRICK_DISTANCES; }
 
