@@ -136,10 +136,10 @@ class MeshDistance final : public ExactDistance {
         return told ? std::optional(*told != 0) : std::nullopt;
     }
 
-    /// What the distance to the surface may be off.
+    /// More than distances to the surface are off, those to slivers included.
     double rounding() const {
         const Vec3 far = glm::max(glm::abs(bounds_.low), glm::abs(bounds_.high));
-        return 1e-14 * std::max({far.x, far.y, far.z});
+        return 1e-12 * std::max({far.x, far.y, far.z});
     }
 
     /// The face's normal, on the side that is not inside.
