@@ -81,7 +81,7 @@ TEST_CASE("A mesh that becomes an occluder in the window is baked on the device 
     // Seen from the right, a finger is dragged against the bust that stands before it.
     const auto session = [&](const std::string& name) {
         return "occluder add tool " + stage.file("tool.ply") +
-               " 1 0.05,0.4,1.2\nwait\noccluder scale tool 0.2\noccluder move tool 0.06,0.7,0.35\nwait\n"
+               " 1 0.05,0.4,1.2\nwait\noccluder move tool 0.06,0.7,0.35\nwait\n"
                "view right\nframe\nradius 0.5\nmove @0.06,0.7,-5\nwait\npress\n"
                "move @0.06,0.7,-5 -40 0\nwait\nmove @0.06,0.7,-5 -80 0\nwait\nexpect touching yes\n"
                "release\nwait\nexpect edits 1\nexpect notices 0" +
