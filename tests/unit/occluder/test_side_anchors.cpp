@@ -5,6 +5,7 @@
 #include "engine/occluder/side_anchors.h"
 #include "engine/occluder/surface_sides.h"
 #include "tests/support/contact_scene.h"
+#include "tests/support/summed_winding.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -53,22 +54,6 @@ std::vector<std::pair<std::string, Mesh>> awkward_meshes() {
             {"bowls through each other", with(bowl, bowl, Vec3(0.31, 0.2, 0.07), 0.8)},
             {"bowl in a ball with another one through it",
              with(with(ball, coarse, Vec3(0.1), 1), bowl, Vec3(0), 0.5)}};
-}
-
-/// Solid angles of all triangles (van Oosterom and Strackee 1983), over 4 pi.
-double summed(const Mesh& mesh, const Vec3& p) {
-    double sum = 0;
-    for (const Triangle& t : mesh.triangles) {
-        const Vec3 a = mesh.positions[t[0]] - p;
-        const Vec3 b = mesh.positions[t[1]] - p;
-        const Vec3 c = mesh.positions[t[2]] - p;
-        const double la = glm::length(a);
-        const double lb = glm::length(b);
-        const double lc = glm::length(c);
-        sum += std::atan2(glm::dot(a, glm::cross(b, c)),
-                          la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
-    }
-    return sum / (2 * pi);
 }
 
 /// As a field's samples lie: lattices, finer and coarser ones, beside faces, holes and anywhere.
@@ -170,7 +155,7 @@ TEST_CASE("off the surface the winding number changes within reach by no more th
             REQUIRE(reach <= 2 * free);
             const Vec3 direction = glm::normalize(random_in(random, Vec3(-1), Vec3(1)));
             const double way = std::min(reach, 0.999999 * free);
-            const double changed = std::abs(summed(mesh, p + way * direction) - summed(mesh, p));
+            const double changed = std::abs(winding(mesh, p + way * direction) - winding(mesh, p));
             most = std::max(most, (changed - 1e-9) / change);
         }
         INFO(name << " changes by " << most << " of what was asked for");
