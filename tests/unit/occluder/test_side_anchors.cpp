@@ -16,8 +16,6 @@ using test::random_in;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 Mesh with(Mesh mesh, const Mesh& other, const Vec3& by, double scale) {
     const auto offset = static_cast<uint32_t>(mesh.vertex_count());
     for (const Vec3& p : other.positions) {
